@@ -1,7 +1,7 @@
 """Numbers in text, with their uncertainty, and Markdown tables of them."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from math import isfinite
+from math import isfinite, isnan
 from typing import NamedTuple
 
 LEAST = 1e-4  # smaller uncertainties and changes, relative, are not told apart
@@ -20,7 +20,7 @@ def cell(value: object, unknown: str = "-") -> str:
     >>> cell(1.2345), cell(3), cell(None), cell("ok")
     ('1.23', '3', '-', 'ok')
     """
-    if value is None or value != value:
+    if value is None or (isinstance(value, float) and isnan(value)):
         return unknown
     return str(Number(value)) if isinstance(value, float) else str(value)
 
@@ -85,7 +85,7 @@ def percent(share: float | None, least: float = 0.0) -> str:
     >>> percent(0.0567), percent(1e-5, least=1e-4)
     ('5.7 %', '< 0.01 %')
     """
-    if share is None or share != share:
+    if share is None or isnan(share):
         return "-"
     return f"{two_digits(100 * share)} %" if share >= least else f"< {100 * least:g} %"
 

@@ -168,25 +168,21 @@ def require_blocks(pages: Mapping[str, str]) -> None:
         for name in re.findall(r"<!-- (\w+): ", text):
             holders.setdefault(name, []).append(page)
     whole = {block["name"] for text in pages.values() for block in BLOCK.finditer(text)}
-    faults = [
-        f"block {name}: {wrong}"
-        for name, on in holders.items()
-        for wrong in _faults(name, on, name in filled, name in whole)[:1]
-    ]
-    if faults:
+    wrong = {name: _fault(name, on, name in filled, name in whole) for name, on in holders.items()}
+    if faults := [f"block {name}: {text}" for name, text in wrong.items() if text]:
         raise BlockError("\n".join(faults))
 
 
-def _faults(name: str, pages: Sequence[str], filled: bool, whole: bool) -> list[str]:
-    """What is wrong with a block on these pages; one thing may follow from that before it."""
+def _fault(name: str, pages: Sequence[str], filled: bool, whole: bool) -> str:
+    """What is wrong with a block on these pages; nothing for a block that is right."""
     named, end = " and ".join(pages), f"`<!-- /{name} -->`"
-    wrong = {
-        f"on no page; add `<!-- {name}: -->` and {end} to one of {', '.join(PAGES)}": not pages,
-        f"should be once on one page, is in {named}": len(pages) > 1,
-        f"{named} has it, but nothing fills it": not filled,
-        f"has no end {end}": not whole,
-    }
-    return [text for text, is_so in wrong.items() if is_so]
+    if not pages:
+        return f"on no page; add `<!-- {name}: -->` and {end} to one of {', '.join(PAGES)}"
+    if len(pages) > 1:
+        return f"should be once on one page, is in {named}"
+    if not filled:
+        return f"{named} has it, but nothing fills it"
+    return "" if whole else f"has no end {end}"
 
 
 def generated(pages: Mapping[str, str], folder: Path = Path()) -> Pages:

@@ -13,7 +13,6 @@ the companion of twice the step at a few speeds.
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from functools import partial
 from itertools import pairwise
 from math import ceil, inf
 from statistics import geometric_mean
@@ -35,11 +34,15 @@ SAFETY = 1.25  # of an estimated error
 TIMES = (STEP_RATIO**2 - 1) / SAFETY  # difference from a companion of twice the step, in errors
 LEAST_SAMPLES = 64  # per round, as in ``Record``
 
-# Those that are `inaccurate` are compared: their error is estimated here. It is 0 where both end
-# early with the same status.
-_differences = partial(differences, compared=TO_THE_END, neither=0.0)
-
 type Coarser = tuple[Rom, NDArray[np.float64]]  # as ``rom.coarser`` makes it of a model
+
+
+def _differences(one: Run, other: Run) -> dict[str, float]:
+    """Relative differences of two runs, those among them that are `inaccurate`.
+
+    Their error is estimated here. It is 0 where both end early with the same status.
+    """
+    return differences(one, other, compared=TO_THE_END, neither=0.0)
 
 
 @dataclass(frozen=True)
@@ -73,13 +76,13 @@ class Fineness:
         With fewer samples if the steps are no multiple of all of them.
         """
         samples = scene.record.samples_per_round
+        fewer = QUICK_STEP_RATIO if self.steps_per_round % samples else 1
         return scene.but(
             accuracy=None,
             integrator={"scheme": "piecewise-exact", "steps_per_round": self.steps_per_round},
             liner__rods_per_round=self.rods_per_round,
             liner__strips=self.strips,
-            record__samples_per_round=samples
-            // (QUICK_STEP_RATIO if self.steps_per_round % samples else 1),
+            record__samples_per_round=samples // fewer,
         )
 
 

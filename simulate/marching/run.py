@@ -86,6 +86,7 @@ def _start(
 
     def arguments(done: int, before: int = 0) -> tuple[Any, ...]:
         """Of the kernel in round ``done``, from 0, after rounds ``before`` of another march."""
+        # Rounds before those that are kept share the first row, which is overwritten.
         rows = [array[max(0, done - rounds + len(array))] for array in kept]
         recorded = Recorded(*rows, Phi_out, weights)
         return scheme, strips, state, recorded, ramp, setup.bound, before + done, setup.steps
@@ -120,7 +121,8 @@ def march(scene: Scene, setup: Setup, left: Left | Worn | None = None) -> Outcom
         contacts += touched
         worked.append(float(state.energies[CASING]))
         done += 1
-    marched, taken = (done - 1) * steps + step, np.full((scene.rounds, 1), steps)
+    marched = (done - 1) * steps + step
+    taken = np.full((scene.rounds, 1), steps)
     taken[done - 1] = step
     total = first * steps + marched
     ledger = _ledger(state.energies, before, _stored(scene, setup, state, total))

@@ -64,7 +64,8 @@ def before(scene: Scene, rom: Rom, runs: xr.Dataset | None) -> Before:
 
 
 def _at_rest(Omega: float) -> None:
-    """What a run without a `start` starts from."""
+    """Nothing: a run without a `start` begins at rest."""
+    return None
 
 
 def _differences(scene: Scene, before: Scene) -> list[Fault]:

@@ -79,9 +79,11 @@ def at_speeds(
     if choice:
         scene = choice.scene(scene)
     require_sweep(scene)
-    at, in_turn = before(scene, rom, start), scene.speeds.in_turn
+    start_at = before(scene, rom, start)
+    in_turn = scene.speeds.in_turn
+    from_start = 1 if in_turn else len(speeds)  # in turn only the first: others go on from it
     cases = [
-        set_up(scene, rom, Omega, choice, None if in_turn and i else at(Omega))
+        set_up(scene, rom, Omega, choice, start_at(Omega) if i < from_start else None)
         for i, Omega in enumerate(speeds)
     ]
     for case in cases[:1]:

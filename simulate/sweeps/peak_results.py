@@ -234,7 +234,8 @@ def _sides(known: dict[float, Numbers], at: Callable[[float], Numbers]) -> list[
     """
     if max(known) > LAST:
         known = {share: at(share) if share else known[0.0] for share in CLOSE}
-    return [*known.values()] if jump(at, known) else None
+    found = jump(at, known)  # adds to ``known`` what it looks at
+    return list(known.values()) if found else None
 
 
 def _error(parts: dict[str, Numbers], name: str) -> float:

@@ -22,17 +22,21 @@ def peaks(runs: xr.Dataset, rom: Rom) -> dict[str, Any]:
     Of each its speed, Omega over f1(0), the amplitude of u_r at xi = 1/16, and the deepest wear of
     the leading eighth of the chord, over the gap there, as far as they are recorded.
     """
-    speeds, known = runs["speed_over_f1"].values, {}
-    if "wear" in runs:
-        known["wear"] = leading_wear(runs).max(axis=1) / leading_gap(runs)
+
+    def over_speeds(k: int | None = None) -> dict[str, Any]:
+        known = {"speed": runs["speed_over_f1"].values}
+        if "spectrum" in runs:
+            known["amplitude"] = along_order(runs, k)
+        if "wear" in runs:
+            known["wear"] = leading_wear(runs).max(axis=1) / leading_gap(runs)
+        return known
 
     def at(index: int, k: int | None = None) -> dict[str, float]:
-        along = {"amplitude": along_order(runs, k)} if "spectrum" in runs else {}
-        return {name: float(of[index]) for name, of in ({"speed": speeds} | along | known).items()}
+        return {name: float(values[index]) for name, values in over_speeds(k).items()}
 
     found: dict[str, Any] = {**statuses(runs)}
-    response = along_order(runs) if "spectrum" in runs else known.get("wear")
-    if response is not None:
-        some = np.isfinite(response).any()
-        found["largest"] = at(int(np.nanargmax(response))) if some else {}
+    _, *responses = over_speeds().values()
+    if responses:
+        has_result = np.isfinite(responses[0]).any()
+        found["largest"] = at(int(np.nanargmax(responses[0]))) if has_result else {}
     return found | {f"k = {k}": at(peak.index, k) for k, peak in reported(runs, rom).items()}

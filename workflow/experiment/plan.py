@@ -268,7 +268,7 @@ def _case(
         directions=max(*directions, scene.directions, key=len),
         model=model,
         function=function_named(of_label),
-        needs=[*["rom"][: experiment.marched], *experiment.needs],
+        needs=[*(["rom"] if experiment.marched else []), *experiment.needs],
     )
 
 

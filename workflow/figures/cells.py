@@ -61,13 +61,12 @@ def draw(
         limits = min(0.0, frame[value].min()), None
     height = FOOTER + ceil(len(panels) / 2) * (HEADER + LINE * lines * len(rows))
     drawn = style.panels(len(panels), style.DOUBLE, height)
+    look = {"text": text, "bold": bold, "labels": labels}
+    look["colours"] = style.MAP if log else style.MAP_FROM_ZERO
+    look["scale"] = (LogNorm if log else Normalize)(*limits or (None, None))
     for axes, (name, these) in zip(drawn.axes, panels.items(), strict=True):
-        image = matrix(
-            *(axes, these.to_dict("records"), x, y, value, [*columns], [*rows]),
-            **{"text": text, "bold": bold, "labels": labels},
-            colours=style.MAP if log else style.MAP_FROM_ZERO,
-            scale=(LogNorm if log else Normalize)(*limits or (None, None)),
-        )
+        cells_of_panel = these.to_dict("records")
+        image = matrix(axes, cells_of_panel, x, y, value, [*columns], [*rows], **look)
         axes.set_title(labelled(labels, name), fontweight="bold")
         axes.set(xlabel=labels.get(x, ""), ylabel=labels.get(y, ""))
         axes.xaxis.set_label_position("top")
@@ -75,12 +74,9 @@ def draw(
         axes.tick_params(labeltop=True, labelbottom=False, labelsize=7)
         axes.tick_params(axis="x", rotation=90 if len(columns) > UPRIGHT else 0)
         axes.spines[:].set_visible(False)
-    drawn.colorbar(
-        *(image, None, drawn.axes),
-        **{"location": "bottom", "aspect": 60, "extend": "both" if limits and log else "neither"},
-        label=labelled(labels, value),
-        format="{x:g}",
-    )
+    extend = "both" if limits and log else "neither"
+    bar = {"location": "bottom", "aspect": 60, "extend": extend, "format": "{x:g}"}
+    drawn.colorbar(image, ax=drawn.axes, label=labelled(labels, value), **bar)
     return drawn
 
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from itertools import product
-from math import inf, nan
+from math import inf, isnan, nan
 from typing import Any
 
 import pandas as pd
@@ -102,11 +102,8 @@ def steps(study: Sequence[Run]) -> Figure:
     unsure = with_floor(other)
     found = shown(tried, unsure)
     found["panel"] = [title(study, name) for name in found["scene"]]
-    drawn = lines.draw(
-        *(found, "cpu_s", JUDGED),
-        **{"line": "scheme", "panel": "panel", "labels": LABELS, "log": "xy"},
-        looks=LOOKS,
-    )
+    look = {"line": "scheme", "panel": "panel", "labels": LABELS, "log": "xy"}
+    drawn = lines.draw(found, "cpu_s", JUDGED, looks=LOOKS, **look)
     _shade(drawn, unsure, JUDGED)
     return drawn
 
@@ -170,7 +167,7 @@ def changes(study: Sequence[Run], groups: Sequence[str] = ("feature",)) -> Figur
 
 def _cell(key: str, value: float) -> dict[str, Any]:
     """A change, coloured by its size in %; number of lobes and time saved are written alone."""
-    if value != value:
+    if isnan(value):
         return {"change": nan, "text": ""}
     if key in (COUNTED, "time"):
         return {"change": nan, "text": f"{value:.0f}".replace("-", MINUS)}

@@ -121,7 +121,7 @@ def _claims(judged: Sequence[Row]) -> str:
             "verdict": row["verdict"],
             **{name: share(row, name) for name in drawn},
             **{f"on {name}": _other(row, name) for name in others},
-            "figure": f"[{row['figure']}](../figures/{row['figure']}.png)" * bool(row["figure"]),
+            "figure": f"[{row['figure']}](../figures/{row['figure']}.png)" if row["figure"] else "",
         }
         for row in judged
     ]

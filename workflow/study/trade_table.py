@@ -1,6 +1,7 @@
 """Tables of the study of accuracy and time, for the README."""
 
 from collections.abc import Mapping, Sequence
+from math import isnan
 from typing import Any
 
 import pandas as pd
@@ -127,7 +128,7 @@ def fewer_speeds(rows: Rows) -> str:
 
 def _ms(seconds: float) -> str:
     """A time in ms; a dash for nan."""
-    return f"{1e3 * seconds:.0f}" if seconds == seconds else "-"
+    return "-" if isnan(seconds) else f"{1e3 * seconds:.0f}"
 
 
 def _level(of: Mapping[str, Any]) -> str:
