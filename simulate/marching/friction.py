@@ -37,6 +37,7 @@ monotone maps, from anywhere (Lions and Mercier 1979). With s = 1/k it is
 both solved for in turn, at a weight g: one strip after the other, and all by elimination.
 """
 
+from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
@@ -57,7 +58,7 @@ from simulate.marching.piecewise_exact import couple, find_force, gain
 
 LEAST = 0.01  # of the smallest eigenvalue of (b), scaled to 1 without friction and compliance
 ROUND_OFF = 1e-9  # imaginary part of a real eigenvalue, over it
-SETS = 16  # of strips from each end of the chord
+PLACES = 32  # along the chord, at which sets of neighbouring strips begin and end
 DOUBLINGS = 20  # of the steps, in search of some that meet (b)
 ROUNDS = 400  # of Newton's steps and, where they do not converge, of the splitting
 SPLITTINGS = 20  # in a round
@@ -116,16 +117,17 @@ def steps_with_one_solution(
 def mu_crit(modes: Modes, stiffness: NDArray[np.float64]) -> float:
     """Least friction at which strips that are engaged lock; inf if none do.
 
-    Of any strip alone, and of those from either end of the chord on: gaps are linear along it, so
-    that contact begins there. Parameters as of ``monotony``.
+    Of any set of neighbouring strips: gaps are linear along the chord, so that contact begins at an
+    end, but strips there may be worn free. Of more than ``PLACES`` strips, any alone, and the sets
+    between so many places of the chord. Parameters as of ``monotony``.
     """
     omega, Phi_b, Phi_t = modes
     static = Phi_b / omega**2
     S, C_rt = np.diag(1 / stiffness) + static @ Phi_b.T, static @ Phi_t.T
     m = len(stiffness)
-    ends = np.unique(np.ceil(m * np.linspace(1 / SETS, 1, SETS)).astype(int))
+    ends = np.unique(np.ceil(m * np.linspace(0, 1, PLACES + 1)).astype(int)).tolist()
     sets = [slice(i, i + 1) for i in range(m)]
-    sets += [part for n in ends for part in (slice(0, n), slice(m - n, m))]
+    sets += [slice(*of) for of in combinations(ends, 2)]
     most = max(_most(np.linalg.solve(S[part, part], -C_rt[part, part])) for part in sets)
     return float(1 / most) if most > 0 else np.inf
 

@@ -1,5 +1,7 @@
 """Sliding friction: closed forms of one mode, the unsymmetric solve, the peer, the ledger."""
 
+from itertools import combinations
+
 import numba
 import numpy as np
 import pytest
@@ -12,7 +14,7 @@ from test_interface_force import assert_solved, from_another_guess, interface, p
 from geometry.project import SettingsError
 from simulate.contact.kernel_file import key
 from simulate.marching import SceneError, march, strip_stiffness
-from simulate.marching.friction import LEAST, growth_rate, monotony, mu_crit
+from simulate.marching.friction import LEAST, PLACES, growth_rate, monotony, mu_crit
 from simulate.marching.kernel import march_round
 from simulate.marching.run import _start
 
@@ -162,25 +164,31 @@ def test_a_rigid_blade_heats_by_friction_times_the_arc_it_slid():
 
 
 def test_engaged_strips_lock_where_a_determinant_vanishes():
-    """Each strip alone, and those from either end on: the smallest friction of all."""
-    rng = np.random.default_rng(3)
-    sets = [slice(0, 1), slice(1, 2), slice(2, 3), slice(0, 2), slice(1, 3), slice(0, 3)]
-    of_a_set = set()
-    for _ in range(20):
-        omega, Phi_b, Phi_t = rng.uniform(1, 9, 6), rng.normal(size=(3, 6)), rng.normal(size=(3, 6))
-        k, static = rng.uniform(1, 5, 3), Phi_b / omega**2
+    """Of all sets of neighbouring strips the one that locks at the least friction."""
+    rng, m, shares = np.random.default_rng(3), 5, np.linspace(0, 1, 201)[:, None, None]
+    sets = [slice(*ends) for ends in combinations(range(m + 1), 2)]
+    locked = set()
+    for _ in range(200):
+        omega, Phi_b, Phi_t = rng.uniform(1, 9, 8), rng.normal(size=(m, 8)), rng.normal(size=(m, 8))
+        k, static = rng.uniform(1, 5, m), Phi_b / omega**2
         mu = mu_crit((omega, Phi_b, Phi_t), k)
+        A = np.diag(1 / k) + static @ Phi_b.T + shares * mu * (static @ Phi_t.T)
+        of_sets = np.array([np.linalg.det(A[:, part, part]) for part in sets])
+        over = of_sets / of_sets[:, :1]  # those without friction
+        assert abs(over[:, -1].min()) < 1e-10
+        assert over[:, :-1].min() > 1e-5
+        locked.add(int(over[:, -1].argmin()))
+    assert locked == {*range(len(sets))}
 
-        def least(of, static=static, k=k, Phi=(Phi_b, Phi_t)):
-            """Smallest determinant of 1/k + C_rr + mu C_rt over that without, and its set."""
-            A, bare = (np.diag(1 / k) + static @ (Phi[0] + by * Phi[1]).T for by in (of, 0.0))
-            over = [np.linalg.det(A[part, part]) / np.linalg.det(bare[part, part]) for part in sets]
-            return min(over), int(np.argmin(over))
 
-        assert abs(least(mu)[0]) < 1e-10
-        assert min(least(share * mu)[0] for share in np.linspace(0, 0.999, 100)) > 1e-5
-        of_a_set.add(least(mu)[1])
-    assert len(of_a_set) > 3
+def test_of_many_strips_sets_lie_between_places_of_the_chord():
+    """Each strip of 64 is two alike of 32: the pairs lock as their strips would."""
+    rng, m = np.random.default_rng(4), PLACES
+    omega, Phi_b, Phi_t = rng.uniform(1, 9, 80), *rng.normal(size=(2, m, 80))
+    k = rng.uniform(1, 5, m)
+    halves = [np.repeat(of, 2, axis=0) for of in (Phi_b, Phi_t, k / 2)]
+    of_halves = mu_crit((omega, *halves[:2]), halves[2])
+    assert of_halves == pytest.approx(mu_crit((omega, Phi_b, Phi_t), k), rel=1e-9)
 
 
 def test_wear_runs_away_beyond_the_friction_at_which_strips_lock(coarse_rom):
