@@ -47,10 +47,11 @@ MEANING = (
     "largest von Mises stress away from clamp and contact, of a recorded state, ± what single "
     "elements differ from their mean at nodes, else of the last round as the scene's page shows "
     "it. ± is the root of the squares of what a twin (gaps changed by 1e-10), models with "
-    "frequencies off by their known errors, and a run with twice the step, half the strips and "
-    "half the patches change (the last not with central differences, on points, or where a run "
-    "goes on from another); for the speed, the spacing of the sweep and these errors of the "
-    "frequencies, not what step, strips and patches shift. {one}: none of these leads to another "
+    "frequencies off by their known errors, a run with twice the step and half the patches, and "
+    "one with twice the strips change (the last two not with central differences, on points, or "
+    "where a run goes on from another), and, of the amplitude, of what a resonance between two "
+    "speeds of the sweep may be higher by; for the speed, the spacing of the sweep and these "
+    "errors of the frequencies, not what step, strips and patches shift. {one}: none of these leads to another "
     "motion; {two}: the last digits of the model choose between two motions, the second number is "
     "that of the other; {none}: the gaps' tenth digit changes the numbers by over 1 %."
 )
@@ -91,7 +92,7 @@ def _scene(of: Mapping[str, Any], stress: Stress, lines: Mapping[str, float]) ->
         **{key: of[key] for key in TOLD},
         "answers_s": sum(answer["seconds"] for answer in of["peaks"]),
         "runs": sum(answer["runs"] for answer in of["peaks"]),
-        "coarser": all("companion" in tried["parts"] for tried in of["peaks"] if tried["parts"]),
+        "fineness": all("companion" in tried["parts"] for tried in of["peaks"] if tried["parts"]),
         "rows": rows,
         "lines": [_line(name, rpm, rows) for name, rpm in lines.items()],
     }
@@ -280,7 +281,7 @@ def notes(scene: Mapping[str, Any]) -> list[str]:
     known_or_not = {
         "error of the model": scene["doubt"]["basis"] is not None,
         "error of the mesh": scene["doubt"]["mesh"] is not None,
-        "error of step, strips and patches (no coarser run)": scene["coarser"],
+        "error of step, strips and patches (no run of other fineness)": scene["fineness"],
         "stress (explore, record.states_rounds)": "stress" in known,
         f"torque ({scene['no_torque']})": "force" not in known or not scene["no_torque"],
     }

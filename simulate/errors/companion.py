@@ -32,6 +32,7 @@ STEP_RATIO, QUICK_STEP_RATIO = 2, 4  # steps of the two companions over that of 
 WIDTH_RATIO = 2  # widths of their rods and strips over those of the run
 SAFETY = 1.25  # of an estimated error
 TIMES = (STEP_RATIO**2 - 1) / SAFETY  # difference from a companion of twice the step, in errors
+FINER_TIMES = (1 - 1 / WIDTH_RATIO**2) / SAFETY  # from a run with strips half as wide
 LEAST_SAMPLES = 64  # per round, as in ``Record``
 
 type Coarser = tuple[Rom, NDArray[np.float64]]  # as ``rom.coarser`` makes it of a model
@@ -69,6 +70,10 @@ class Fineness:
     def with_fewer_strips(self) -> "Fineness":
         """Those of a companion with half the strips."""
         return replace(self, strips=max(self.strips // WIDTH_RATIO, 1))
+
+    def with_more_strips(self) -> "Fineness":
+        """Those of a run with twice the strips."""
+        return replace(self, strips=WIDTH_RATIO * self.strips)
 
     def scene(self, scene: Scene) -> Scene:
         """The scene, marched piecewise-exact with these steps, rods and strips.

@@ -6,16 +6,17 @@ At the speed of each peak the run is marched again with its contact force, and b
     two models  with all natural frequencies raised and lowered by the largest error that the check
                 of the reduced model found; two more by that of the mesh, where it is known, at the
                 same speed over f1 if the scene gives speeds so
-    a companion coarser in step, rods, strips, patches and modes (``errors.companion``)
+    a companion coarser in step, rods, patches and modes (``errors.companion``)
+    more strips twice as many; half would be too few for the order of their error to hold
 
-The uncertainty of a number is the root of the squares of these changes. A peak whose numbers jump
-from model to model has two motions (``errors.bistable``).
+The uncertainty of a number is the root of the squares of these changes; in that of the amplitude is
+what a resonance between two speeds of the sweep may be higher by. A peak whose numbers jump from
+model to model has two motions (``errors.bistable``).
 """
 
 from collections.abc import Callable
-from contextlib import suppress
 from dataclasses import replace
-from math import hypot, isfinite
+from math import hypot, inf, isfinite
 from time import perf_counter, process_time
 from typing import Any
 
@@ -26,7 +27,7 @@ from geometry.project import Say, progress, silent
 from rom.coarser import coarser
 from rom.model import Rom, RomError
 from simulate.errors.bistable import LAST, change, jump, largest
-from simulate.errors.companion import TIMES, companion
+from simulate.errors.companion import FINER_TIMES, TIMES, Fineness, companion
 from simulate.errors.model_errors import Doubt
 from simulate.errors.neighbour import CHAOTIC, ONE_MOTION, TWO_MOTIONS, Neighbour
 from simulate.errors.neighbours import ITSELF, TWIN, raised
@@ -34,7 +35,7 @@ from simulate.errors.observables import Numbers, numbers
 from simulate.errors.run import Case
 from simulate.errors.signals import gaps_at_ends, leading_wear, lobe_count
 from simulate.marching import SENSITIVE_FROM, WITH_RESULT, prepare
-from simulate.scene import Scene
+from simulate.scene import MOST_STRIPS, Scene
 from simulate.sweeps.before import before
 from simulate.sweeps.dataset import scene_of, statuses
 from simulate.sweeps.peak import Peak, along_order, crossing, reported
@@ -186,8 +187,10 @@ def _tried(peak: Peak, case: Case, doubt: Doubt) -> Peak:
             known = {of: at(raised(of, moves)) if of else own for of in (-share, 0.0, share)}
             parts[name] = change(own, known[share], known[-share])
             sides = sides or _sides(known, lambda of, moves=moves: at(raised(of, moves)))
-    if coarser := _companion(case):
-        parts["companion"] = {n: of / TIMES for n, of in change(own, at(coarser)).items()}
+    for name, (other, times) in _of_other_fineness(case).items():
+        parts[name] = {number: of / times for number, of in change(own, at(other)).items()}
+    if peak.k and peak.spacing:
+        parts["speeds"] = {"amplitude": between_speeds(peak, case.scene.damping_ratio)}
     chaotic = largest(parts["twin"]) > SENSITIVE_FROM
     return replace(
         peak,
@@ -217,13 +220,36 @@ def at_peak(case: Case, k: int | None) -> Numbers:
     return {name: found[of] for name, of in names.items() if of in found}
 
 
-def _companion(case: Case) -> Neighbour | None:
-    """The coarser companion; None where there is none."""
+def _of_other_fineness(case: Case) -> dict[str, tuple[Neighbour, float]]:
+    """Second runs of other fineness, and how many errors of the run each differs from it by.
+
+    None where there are none.
+    """
     exact = case.scene.integrator.scheme == "piecewise-exact"
-    if exact and case.left is None:
-        with suppress(RomError):  # of points, or too few patches to leave some out
-            return companion(case.setup, coarser(case.rom)[0])
-    return None
+    if not exact or case.left is not None:
+        return {}
+    try:
+        coarse, _ = coarser(case.rom)
+    except RomError:  # of points, or too few patches to leave some out
+        return {}
+    now = Fineness.of(case.setup)
+    longer, more = now.with_longer_step(), now.with_more_strips()
+    if case.scene.liner.rigid_key or more.strips > MOST_STRIPS:  # refused
+        return {"companion": (companion(case.setup, coarse), TIMES)}
+    return {
+        "companion": (Neighbour("companion", longer.scene, lambda _: coarse), TIMES),
+        "strips": (Neighbour("more strips", more.scene), FINER_TIMES),
+    }
+
+
+def between_speeds(peak: Peak, zeta: float) -> float:
+    """Relative rise of a resonance of damping ratio ``zeta`` from a speed of the sweep to its top.
+
+    Half its spacing away: sqrt(1 + x^2) - 1 with x that distance over zeta Omega_c, as of a linear
+    oscillator near its resonance. Inf without damping.
+    """
+    width = zeta * peak.Omega_c
+    return hypot(1.0, peak.spacing / 2 / width) - 1 if width else inf
 
 
 def _sides(known: dict[float, Numbers], at: Callable[[float], Numbers]) -> list[Numbers] | None:
