@@ -47,13 +47,14 @@ MEANING = (
     "largest von Mises stress away from clamp and contact, of a recorded state, ± what single "
     "elements differ from their mean at nodes, else of the last round as the scene's page shows "
     "it. ± is the root of the squares of what a twin (gaps changed by 1e-10), models with "
-    "frequencies off by their known errors, a run with twice the step and half the patches, and "
-    "one with twice the strips change (the last two not with central differences, on points, or "
+    "frequencies off by their known errors, a model with half the patches, and a run with twice "
+    "the steps, rods and strips change (the last two not with central differences, on points, or "
     "where a run goes on from another), and, of the amplitude, of what a resonance between two "
     "speeds of the sweep may be higher by; for the speed, the spacing of the sweep and these "
-    "errors of the frequencies, not what step, strips and patches shift. {one}: none of these leads to another "
-    "motion; {two}: the last digits of the model choose between two motions, the second number is "
-    "that of the other; {none}: the gaps' tenth digit changes the numbers by over 1 %."
+    "errors of the frequencies, not what step, strips and patches shift. {one}: none of these "
+    "leads to another motion; {two}: the last digits of the model choose between two motions, the "
+    "second number is that of the other; {none}: the gaps' tenth digit changes the numbers by over "
+    "1 %."
 )
 
 # What is told of a scene as its answers have it.
@@ -92,7 +93,9 @@ def _scene(of: Mapping[str, Any], stress: Stress, lines: Mapping[str, float]) ->
         **{key: of[key] for key in TOLD},
         "answers_s": sum(answer["seconds"] for answer in of["peaks"]),
         "runs": sum(answer["runs"] for answer in of["peaks"]),
-        "fineness": all("companion" in tried["parts"] for tried in of["peaks"] if tried["parts"]),
+        "fineness": all(
+            {"finer", "companion"} & {*tried["parts"]} for tried in of["peaks"] if tried["parts"]
+        ),
         "rows": rows,
         "lines": [_line(name, rpm, rows) for name, rpm in lines.items()],
     }

@@ -32,7 +32,7 @@ STEP_RATIO, QUICK_STEP_RATIO = 2, 4  # steps of the two companions over that of 
 WIDTH_RATIO = 2  # widths of their rods and strips over those of the run
 SAFETY = 1.25  # of an estimated error
 TIMES = (STEP_RATIO**2 - 1) / SAFETY  # difference from a companion of twice the step, in errors
-FINER_TIMES = (1 - 1 / WIDTH_RATIO**2) / SAFETY  # from a run with strips half as wide
+FINER_TIMES = (1 - 1 / STEP_RATIO**2) / SAFETY  # difference from a run of half the step, in errors
 LEAST_SAMPLES = 64  # per round, as in ``Record``
 
 type Coarser = tuple[Rom, NDArray[np.float64]]  # as ``rom.coarser`` makes it of a model
@@ -71,9 +71,13 @@ class Fineness:
         """Those of a companion with half the strips."""
         return replace(self, strips=max(self.strips // WIDTH_RATIO, 1))
 
-    def with_more_strips(self) -> "Fineness":
-        """Those of a run with twice the strips."""
-        return replace(self, strips=WIDTH_RATIO * self.strips)
+    def finer(self) -> "Fineness":
+        """Those of a run with twice the steps, rods and strips."""
+        return Fineness(
+            STEP_RATIO * self.steps_per_round,
+            WIDTH_RATIO * self.rods_per_round | 1,
+            WIDTH_RATIO * self.strips,
+        )
 
     def scene(self, scene: Scene) -> Scene:
         """The scene, marched piecewise-exact with these steps, rods and strips.

@@ -3,7 +3,7 @@
 from simulate.scene.casing import LEADING, TRAILING, Casing, Clearance, Harmonic
 from simulate.scene.contact import Contact, Profile
 from simulate.scene.integrator import CentralDifference, PiecewiseExact
-from simulate.scene.liner import MOST_STRIPS, STRIPS, Liner
+from simulate.scene.liner import STRIPS, Liner
 from simulate.scene.record import BESIDE, History, Peaks, Record
 from simulate.scene.scene import Scene, fault_of_blade
 from simulate.scene.speeds import OVER_F1, RAD_S, Speeds
@@ -11,7 +11,6 @@ from simulate.scene.speeds import OVER_F1, RAD_S, Speeds
 __all__ = [
     "BESIDE",
     "LEADING",
-    "MOST_STRIPS",
     "OVER_F1",
     "RAD_S",
     "STRIPS",

@@ -8,7 +8,6 @@ from geometry.project import Settings, SettingsError, checked
 from simulate.scene.laws import AnyLaw
 
 STRIPS = 16  # along the chord, where the scene does not say
-MOST_STRIPS = 256
 # Pa. Stiffer than ten times diamond, a liner is the law `rigid`: its rods ask for steps that no
 # scene has, and central differences agree with half their step where both are wrong.
 RANGES = {"E": (1e5, 1e13), "K": (0.0, 1e16), "sigma_Y": (0.0, 1e16)}
@@ -31,7 +30,7 @@ class Liner(Settings):
     strips: int | None = Field(
         default=None,
         ge=1,
-        le=MOST_STRIPS,
+        le=256,
         description=f"Number of strips along the chord, of equal length; {STRIPS} without "
         "accuracy, which chooses it",
     )

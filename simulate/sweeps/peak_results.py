@@ -6,8 +6,9 @@ At the speed of each peak the run is marched again with its contact force, and b
     two models  with all natural frequencies raised and lowered by the largest error that the check
                 of the reduced model found; two more by that of the mesh, where it is known, at the
                 same speed over f1 if the scene gives speeds so
-    a companion coarser in step, rods, patches and modes (``errors.companion``)
-    more strips twice as many; half would be too few for the order of their error to hold
+    a coarser   reduced model, with fewer patches and modes (``rom.coarser``)
+    a finer run of twice the steps, rods and strips: one of half of them is often too coarse for the
+                order of their errors to hold, and its change may pass through zero
 
 The uncertainty of a number is the root of the squares of these changes; in that of the amplitude is
 what a resonance between two speeds of the sweep may be higher by. A peak whose numbers jump from
@@ -23,7 +24,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from geometry.project import Say, progress, silent
+from geometry.project import Say, SettingsError, progress, silent
 from rom.coarser import coarser
 from rom.model import Rom, RomError
 from simulate.errors.bistable import LAST, change, jump, largest
@@ -34,8 +35,8 @@ from simulate.errors.neighbours import ITSELF, TWIN, raised
 from simulate.errors.observables import Numbers, numbers
 from simulate.errors.run import Case
 from simulate.errors.signals import gaps_at_ends, leading_wear, lobe_count
-from simulate.marching import SENSITIVE_FROM, WITH_RESULT, prepare
-from simulate.scene import MOST_STRIPS, Scene
+from simulate.marching import SENSITIVE_FROM, WITH_RESULT, SceneError, check_scene, prepare
+from simulate.scene import Scene
 from simulate.sweeps.before import before
 from simulate.sweeps.dataset import scene_of, statuses
 from simulate.sweeps.peak import Peak, along_order, crossing, reported
@@ -223,7 +224,8 @@ def at_peak(case: Case, k: int | None) -> Numbers:
 def _of_other_fineness(case: Case) -> dict[str, tuple[Neighbour, float]]:
     """Second runs of other fineness, and how many errors of the run each differs from it by.
 
-    None where there are none.
+    None where there are none. A rigid casing takes no more strips than patches: there one run is
+    coarser in all.
     """
     exact = case.scene.integrator.scheme == "piecewise-exact"
     if not exact or case.left is not None:
@@ -232,13 +234,14 @@ def _of_other_fineness(case: Case) -> dict[str, tuple[Neighbour, float]]:
         coarse, _ = coarser(case.rom)
     except RomError:  # of points, or too few patches to leave some out
         return {}
-    now = Fineness.of(case.setup)
-    longer, more = now.with_longer_step(), now.with_more_strips()
-    if case.scene.liner.rigid_key or more.strips > MOST_STRIPS:  # refused
+    try:
+        finer = Fineness.of(case.setup).finer().scene(case.scene)
+        check_scene(finer, case.rom)
+    except (SettingsError, SceneError):
         return {"companion": (companion(case.setup, coarse), TIMES)}
     return {
-        "companion": (Neighbour("companion", longer.scene, lambda _: coarse), TIMES),
-        "strips": (Neighbour("more strips", more.scene), FINER_TIMES),
+        "patches": (Neighbour("fewer patches and modes", rom=lambda _: coarse), TIMES),
+        "finer": (Neighbour("finer", scene=lambda _: finer), FINER_TIMES),
     }
 
 

@@ -8,14 +8,24 @@ from runs import swept
 from scenes import of_steps, scene
 
 from simulate.errors.bistable import change, jump, largest
+from simulate.errors.companion import Fineness
 from simulate.errors.loads import torque
 from simulate.errors.model_errors import Doubt
 from simulate.errors.neighbour import CHAOTIC, ONE_MOTION, TWO_MOTIONS
 from simulate.errors.neighbours import raised
 from simulate.errors.observables import NUMBERS
+from simulate.marching import prepare
 from simulate.sweeps.over_speeds import at_speeds
-from simulate.sweeps.peak import crossing, peak_of
-from simulate.sweeps.peak_results import CROSSED, of_sweep, results
+from simulate.sweeps.peak import Peak, crossing, peak_of
+from simulate.sweeps.peak_results import (
+    CROSSED,
+    at_peak,
+    between_speeds,
+    case_of,
+    of_sweep,
+    results,
+    to_march,
+)
 
 CALM = Doubt(basis=4e-5, mesh=None)
 # An elastic liner that a casing of four lobes presses near the blade's own frequency: the response
@@ -162,14 +172,56 @@ def test_results_tell_of_the_sweep_and_its_model(worn, coarse_rom):
     assert [end["over_f1"] for end in of_sweep(failed, slow, CALM, [])["ends"]] == [0.32, 0.36]
 
 
-def test_uncertainty_is_the_root_of_squares_of_twin_models_and_companion(worn, coarse_rom):
-    for peak in results(worn, coarse_rom, Doubt(1e-4, 1e-3)):
-        assert {*peak.parts} == {"twin", "model", "mesh", "companion"}
+@pytest.fixture(scope="module")
+def known(worn, coarse_rom):
+    """The peaks of the sweep, with their uncertainty."""
+    return results(worn, coarse_rom, Doubt(1e-4, 1e-3))
+
+
+def test_uncertainty_is_the_root_of_squares_of_its_parts(known):
+    for peak in known:
+        of_all = {"twin", "model", "mesh", "patches", "finer"}
+        assert {*peak.parts} - {"speeds"} == of_all and ("speeds" in peak.parts) == bool(peak.k)
         for name, value in peak.numbers.items():
-            shares = [of[name] for of in peak.parts.values()]
+            shares = [of.get(name, 0.0) for of in peak.parts.values()]
             assert peak.errors[name] == pytest.approx(np.linalg.norm(shares) * value)
-            assert peak.parts["companion"][name] > 0
-        assert peak.runs >= 7
+            assert peak.parts["patches"][name] > 0 and peak.parts["finer"][name] > 0
+        assert peak.runs >= 8
+
+
+def test_four_times_the_strips_steps_and_rods_lie_within_the_uncertainty(coarse_rom):
+    """At the speed of the peak, without what models and other speeds add."""
+    usual = {"liner__strips": 16, "liner__rods_per_round": 1021, "integrator": of_steps(2048)}
+    runs = swept(scene(**WORN | usual), coarse_rom)
+    for peak in results(runs, coarse_rom, CALM):
+        case = case_of(runs, to_march(runs), coarse_rom, peak)
+        fine = Fineness(4 * 2048, 4 * 1021, 4 * 16).scene(case.scene)
+        setup = prepare(fine, coarse_rom, case.setup.Omega)
+        true = at_peak(replace(case, scene=fine, setup=setup), peak.k)
+        off = [
+            abs(true[name] / value - 1) / peak.parts["finer"][name]
+            for name, value in peak.numbers.items()
+        ]
+        assert 0 < max(off) < 1
+
+
+def test_against_a_rigid_casing_the_companion_has_half_the_strips(coarse_rom):
+    """It takes no more strips than patches."""
+    rigid = WORN | {"liner__law": {"kind": "rigid"}}
+    for peak in results(swept(scene(**rigid), coarse_rom), coarse_rom, CALM):
+        assert "companion" in peak.parts and "finer" not in peak.parts
+
+
+def test_between_two_speeds_a_linear_resonance_is_no_higher_than_is_said():
+    """Of an oscillator of frequency 1, forced along engine order 4, sampled in its worst place."""
+    zeta, k = 0.003, 4
+    for spacing in (1e-4, 5e-4, 2e-3):
+        half = spacing / 2
+        near = 1 / k + np.array([-half, 0.0, half])  # its top lies halfway
+        at = 1 / np.hypot(1 - (k * near) ** 2, 2 * zeta * k * near)
+        said = between_speeds(Peak(k, 0, 1 / k, spacing=spacing), zeta)
+        assert 0.9 * said < at[1] / at[[0, 2]].max() - 1 <= said
+    assert between_speeds(Peak(k, 0, 1 / k, spacing=1e-4), 0.0) == np.inf
 
 
 def test_a_model_raised_by_a_share_has_its_frequencies_higher_by_it(coarse_rom):

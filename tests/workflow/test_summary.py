@@ -25,7 +25,7 @@ ANSWER = {
     "errors": {name: 0.05 * value for name, value in NUMBERS.items()},
     "other": {},
     "lobes": 4,
-    "parts": {"twin": {"amplitude": 0.03}, "companion": {"amplitude": 0.04}},
+    "parts": {"twin": {"amplitude": 0.03}, "finer": {"amplitude": 0.04}},
     "runs": 7,
     "seconds": 1.5,
 }
@@ -118,9 +118,9 @@ def test_what_is_not_known_is_said(summed):
     assert row["torque (N m)"] == row["amplitude +- (um)"] == ""
     elsewhere = summed(stress=STRESS | {"speed_over_f1": 0.36})
     assert "stress" not in elsewhere["scenes"][0]["rows"][0]["values"]
-    # central differences have no coarser run; where nothing was tried, nothing is missed
-    for parts, coarser in (({"twin": {"amplitude": 0.05}}, False), ({}, True)):
-        assert summed({"parts": parts})["scenes"][0]["coarser"] is coarser
+    # central differences have no runs of other fineness; where nothing was tried, nothing is missed
+    for parts, known in (({"twin": {"amplitude": 0.05}}, False), ({}, True)):
+        assert summed({"parts": parts})["scenes"][0]["fineness"] is known
 
 
 def test_scene_says_its_model_its_crossings_and_what_its_ends_show(summed):
