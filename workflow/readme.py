@@ -111,6 +111,7 @@ COMPUTED = (
     ("rounds", TRADE, trade_table.fewer_rounds),
     ("speeds", TRADE, trade_table.fewer_speeds),
     ("schemes", TRADE, trade_table.schemes),
+    ("bars", "results/experiments/bars/table.md", str),
     ("limits", "results/figures/stability-map.json", stability.limits),
     ("extremes", "results/figures/stability-matrix.json", stability.extremes),
     ("cuts", "results/experiments/frequencies/table.json", rotor37.edge_cuts_table),

@@ -6,6 +6,7 @@ wildcard_constraints:
 STUDIES = {
     "study_mesh": pictures(["mesh-convergence"]),
     "study_bases": "results/experiments/bases/table.md",
+    "study_bars": "results/experiments/bars/table.md",
     "study_rotor37": "results/experiments/frequencies/table.md",
     "stability": ["results/figures/stability.png", "results/figures/stability-matrix.json"],
     "trade": [

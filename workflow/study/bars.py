@@ -1,0 +1,56 @@
+"""Uncertainties of the numbers at peaks against their errors.
+
+Rows are those of workflow/experiments/bars.yaml.
+"""
+
+from statistics import median
+from typing import Any
+
+import xarray as xr
+
+from rom.model import Rom
+from simulate.errors.model_errors import Doubt
+from simulate.errors.observables import Numbers
+from simulate.errors.run import Case
+from simulate.marching import prepare
+from simulate.sweeps.peak import Peak
+from simulate.sweeps.peak_results import at_peak, results, to_march
+from workflow.experiment.engine import Marched
+
+BESIDE = (-0.5, 0.0, 0.5)  # spacings of the sweep from a peak, where the reference is marched
+
+
+def held(runs: xr.Dataset, rom: Rom, reference: Marched | None) -> dict[str, Any]:
+    """How many numbers are off from the ``reference`` by no more, or by over twice, their +-.
+
+    Of the peaks along engine orders; amplitudes are compared with the largest of the reference at
+    the speed of the peak and halfway to those beside it. Mesh and natural modes are the same: what
+    they add to an uncertainty is left out. CPU time is that of the runs beside the peaks.
+    """
+    if reference is None:
+        return {}
+    peaks = [peak for peak in results(runs, rom, Doubt(None, None)) if peak.k]
+    pairs = [
+        (abs(true[name] - value) / peak.errors[name], peak.errors[name] / value)
+        for peak in peaks
+        for true in [_true(peak, reference)]
+        for name, value in peak.numbers.items()
+    ]
+    off, said = zip(*pairs, strict=True)
+    return {
+        "peaks": len(peaks),
+        "numbers": len(off),
+        "within": sum(of <= 1 for of in off),
+        "beyond twice": sum(of > 2 for of in off),
+        "median ±": median(said),
+        "CPU s of ±": sum(peak.seconds for peak in peaks),
+    }
+
+
+def _true(peak: Peak, reference: Marched) -> Numbers:
+    """Numbers of the reference at a peak."""
+    scene, rom = to_march(reference.runs), reference.rom
+    speeds = [peak.Omega_c + beside * peak.spacing for beside in BESIDE]
+    setups = [prepare(scene, rom, min(over_f1 * rom.omega1, rom.Omega_m)) for over_f1 in speeds]
+    found = [at_peak(Case(scene, rom, setup), peak.k) for setup in setups]
+    return found[1] | {"amplitude": max(of["amplitude"] for of in found)}
