@@ -61,6 +61,8 @@ MEANING = (
 TOLD = ("scene", "blade", "f1_Hz", "gap_m", "dofs", "crossings", "status", "reasons", "ends")
 TOLD += ("doubt", "no_torque", "mu_crit", "sweep_s")
 
+SURE = {"amplitude": 0.0}  # along no engine order
+
 type Row = dict[str, Any]
 type Stress = dict[float, tuple[float, float | None]]  # by speed over f1(0): largest, its error, Pa
 
@@ -89,13 +91,13 @@ def numbers(files: Any, operating: Mapping[str, Mapping[str, float]]) -> dict[st
 
 def _scene(of: Mapping[str, Any], stress: Stress, lines: Mapping[str, float]) -> dict[str, Any]:
     rows = [_row(of, answer, stress) for answer in of["peaks"]]
+    tried = [answer["parts"] for answer in of["peaks"] if answer["parts"]]
     return {
         **{key: of[key] for key in TOLD},
         "answers_s": sum(answer["seconds"] for answer in of["peaks"]),
         "runs": sum(answer["runs"] for answer in of["peaks"]),
-        "fineness": all(
-            {"finer", "companion"} & {*tried["parts"]} for tried in of["peaks"] if tried["parts"]
-        ),
+        "fineness": all({"finer", "companion"} & {*parts} for parts in tried),
+        "speeds": all(parts.get("speeds", SURE)["amplitude"] is not None for parts in tried),
         "rows": rows,
         "lines": [_line(name, rpm, rows) for name, rpm in lines.items()],
     }
@@ -285,6 +287,7 @@ def notes(scene: Mapping[str, Any]) -> list[str]:
         "error of the model": scene["doubt"]["basis"] is not None,
         "error of the mesh": scene["doubt"]["mesh"] is not None,
         "error of step, strips and patches (no run of other fineness)": scene["fineness"],
+        "amplitude between the speeds of the sweep (peaks: adds speeds)": scene["speeds"],
         "stress (explore, record.states_rounds)": "stress" in known,
         f"torque ({scene['no_torque']})": "force" not in known or not scene["no_torque"],
     }

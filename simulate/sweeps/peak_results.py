@@ -47,6 +47,7 @@ OF_CONTACT = {  # numbers of a peak by their name in files, and that in ``NUMBER
 }
 CROSSED = (4, 5, 6)  # engine orders whose linear crossings are told: those of the paper
 CLOSE = (-LAST, 0.0, LAST)
+MOST_RISE = 1.0  # between two speeds: above, the sweep does not know its peak
 
 
 def results(
@@ -249,10 +250,11 @@ def between_speeds(peak: Peak, zeta: float) -> float:
     """Relative rise of a resonance of damping ratio ``zeta`` from a speed of the sweep to its top.
 
     Half its spacing away: sqrt(1 + x^2) - 1 with x that distance over zeta Omega_c, as of a linear
-    oscillator near its resonance. Inf without damping.
+    oscillator near its resonance. Inf, not known, where it may be over twice as high.
     """
     width = zeta * peak.Omega_c
-    return hypot(1.0, peak.spacing / 2 / width) - 1 if width else inf
+    rise = hypot(1.0, peak.spacing / 2 / width) - 1 if width else inf
+    return rise if rise <= MOST_RISE else inf
 
 
 def _sides(known: dict[float, Numbers], at: Callable[[float], Numbers]) -> list[Numbers] | None:

@@ -121,6 +121,10 @@ def test_what_is_not_known_is_said(summed):
     # central differences have no runs of other fineness; where nothing was tried, nothing is missed
     for parts, known in (({"twin": {"amplitude": 0.05}}, False), ({}, True)):
         assert summed({"parts": parts})["scenes"][0]["fineness"] is known
+    for amplitude, known in ((0.05, True), (None, False)):
+        parts = {"twin": {}, "speeds": {"amplitude": amplitude}}
+        found = summed({"parts": parts})
+        assert ("between the speeds" in summary.terminal(found)) is not known
 
 
 def test_scene_says_its_model_its_crossings_and_what_its_ends_show(summed):
