@@ -30,13 +30,12 @@ def held(runs: xr.Dataset, rom: Rom, reference: Marched | None) -> dict[str, Any
     if reference is None:
         return {}
     peaks = [peak for peak in results(runs, rom, Doubt(None, None)) if peak.k]
-    pairs = [
-        (abs(true[name] - value) / peak.errors[name], peak.errors[name] / value)
-        for peak in peaks
-        for true in [_true(peak, reference)]
-        for name, value in peak.numbers.items()
-    ]
-    off, said = zip(*pairs, strict=True)
+    off, said = [], []
+    for peak in peaks:
+        true = _true(peak, reference)
+        for name, value in peak.numbers.items():
+            off.append(abs(true[name] - value) / peak.errors[name])
+            said.append(peak.errors[name] / value)
     return {
         "peaks": len(peaks),
         "numbers": len(off),
