@@ -32,7 +32,8 @@ STEP_RATIO, QUICK_STEP_RATIO = 2, 4  # steps of the two companions over that of 
 WIDTH_RATIO = 2  # widths of their rods and strips over those of the run
 SAFETY = 1.25  # of an estimated error
 TIMES = (STEP_RATIO**2 - 1) / SAFETY  # difference from a companion of twice the step, in errors
-FINER_TIMES = (1 - 1 / STEP_RATIO**2) / SAFETY  # difference from a run of half the step, in errors
+# difference from a run with half the step and widths, in errors; of two runs no order is seen
+FINER_TIMES = (1 - 1 / STEP_RATIO**2) / 1.5
 LEAST_SAMPLES = 64  # per round, as in ``Record``
 
 type Coarser = tuple[Rom, NDArray[np.float64]]  # as ``rom.coarser`` makes it of a model

@@ -7,8 +7,8 @@ At the speed of each peak the run is marched again with its contact force, and b
                 of the reduced model found; two more by that of the mesh, where it is known, at the
                 same speed over f1 if the scene gives speeds so
     a coarser   reduced model, with fewer patches and modes (``rom.coarser``)
-    a finer run of twice the steps, rods and strips: one of half of them is often too coarse for the
-                order of their errors to hold, and its change may pass through zero
+    a finer run of twice the steps, rods and strips; one of half of them is often too coarse for the
+                order of their errors to hold
 
 The uncertainty of a number is the root of the squares of these changes; in that of the amplitude is
 what a resonance between two speeds of the sweep may be higher by. A peak whose numbers jump from
@@ -47,6 +47,7 @@ OF_CONTACT = {  # numbers of a peak by their name in files, and that in ``NUMBER
 }
 CROSSED = (4, 5, 6)  # engine orders whose linear crossings are told: those of the paper
 CLOSE = (-LAST, 0.0, LAST)
+LEAST_PART = 0.2  # of the largest change of a run's numbers: that of one may pass through zero
 MOST_RISE = 1.0  # between two speeds: above, the sweep does not know its peak
 
 
@@ -190,7 +191,9 @@ def _tried(peak: Peak, case: Case, doubt: Doubt) -> Peak:
             parts[name] = change(own, known[share], known[-share])
             sides = sides or _sides(known, lambda of, moves=moves: at(raised(of, moves)))
     for name, (other, times) in _of_other_fineness(case).items():
-        parts[name] = {number: of / times for number, of in change(own, at(other)).items()}
+        changes = change(own, at(other))
+        least = LEAST_PART * largest(changes)
+        parts[name] = {number: max(of, least) / times for number, of in changes.items()}
     if peak.k and peak.spacing:
         parts["speeds"] = {"amplitude": between_speeds(peak, case.scene.damping_ratio)}
     chaotic = largest(parts["twin"]) > SENSITIVE_FROM
