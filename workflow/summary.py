@@ -61,8 +61,6 @@ MEANING = (
 TOLD = ("scene", "blade", "f1_Hz", "gap_m", "dofs", "crossings", "status", "reasons", "ends")
 TOLD += ("doubt", "no_torque", "mu_crit", "sweep_s")
 
-SURE = {"amplitude": 0.0}  # along no engine order
-
 type Row = dict[str, Any]
 type Stress = dict[float, tuple[float, float | None]]  # by speed over f1(0): largest, its error, Pa
 
@@ -97,7 +95,7 @@ def _scene(of: Mapping[str, Any], stress: Stress, lines: Mapping[str, float]) ->
         "answers_s": sum(answer["seconds"] for answer in of["peaks"]),
         "runs": sum(answer["runs"] for answer in of["peaks"]),
         "fineness": all({"finer", "companion"} & {*parts} for parts in tried),
-        "speeds": all(parts.get("speeds", SURE)["amplitude"] is not None for parts in tried),
+        "speeds": all(parts.get("speeds", {}).get("amplitude", 0.0) is not None for parts in tried),
         "rows": rows,
         "lines": [_line(name, rpm, rows) for name, rpm in lines.items()],
     }

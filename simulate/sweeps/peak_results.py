@@ -35,7 +35,7 @@ from simulate.errors.neighbours import ITSELF, TWIN, raised
 from simulate.errors.observables import Numbers, numbers
 from simulate.errors.run import Case
 from simulate.errors.signals import gaps_at_ends, leading_wear, lobe_count
-from simulate.marching import SENSITIVE_FROM, WITH_RESULT, SceneError, check_scene, prepare
+from simulate.marching import SENSITIVE_FROM, WITH_RESULT, prepare
 from simulate.scene import Scene
 from simulate.sweeps.before import before
 from simulate.sweeps.dataset import scene_of, statuses
@@ -201,7 +201,10 @@ def _tried(peak: Peak, case: Case, doubt: Doubt) -> Peak:
         peak,
         verdict=CHAOTIC if chaotic else TWO_MOTIONS if sides else ONE_MOTION,
         numbers=own,
-        errors={name: _error(parts, name) * value for name, value in own.items()},
+        errors={
+            name: value * hypot(*(changes.get(name, 0.0) for changes in parts.values()))
+            for name, value in own.items()
+        },
         # of the run that differs most from the own one
         other=max(sides, key=lambda of: largest(change(own, of))) if sides else {},
         parts=parts,
@@ -231,17 +234,14 @@ def _of_other_fineness(case: Case) -> dict[str, tuple[Neighbour, float]]:
     None where there are none. A rigid casing takes no more strips than patches: there one run is
     coarser in all.
     """
-    exact = case.scene.integrator.scheme == "piecewise-exact"
-    if not exact or case.left is not None:
+    if case.scene.integrator.scheme != "piecewise-exact" or case.left is not None:
         return {}
     try:
         coarse, _ = coarser(case.rom)
-    except RomError:  # of points, or too few patches to leave some out
-        return {}
-    try:
         finer = Fineness.of(case.setup).finer().scene(case.scene)
-        check_scene(finer, case.rom)
-    except (SettingsError, SceneError):
+    except (RomError, SettingsError):  # points, too few patches; more strips than are allowed
+        return {}
+    if case.scene.liner.rigid_key:
         return {"companion": (companion(case.setup, coarse), TIMES)}
     return {
         "patches": (Neighbour("fewer patches and modes", rom=lambda _: coarse), TIMES),
@@ -270,8 +270,3 @@ def _sides(known: dict[float, Numbers], at: Callable[[float], Numbers]) -> list[
         known = {share: at(share) if share else known[0.0] for share in CLOSE}
     found = jump(at, known)  # adds to ``known`` what it looks at
     return list(known.values()) if found else None
-
-
-def _error(parts: dict[str, Numbers], name: str) -> float:
-    """Relative uncertainty of a number: the root of the squares of its changes."""
-    return hypot(*(changes.get(name, 0.0) for changes in parts.values()))

@@ -10,7 +10,6 @@ import xarray as xr
 
 from rom.model import Rom
 from simulate.errors.model_errors import Doubt
-from simulate.errors.observables import Numbers
 from simulate.errors.run import Case
 from simulate.marching import prepare
 from simulate.sweeps.peak import Peak
@@ -46,7 +45,7 @@ def held(runs: xr.Dataset, rom: Rom, reference: Marched | None) -> dict[str, Any
     }
 
 
-def _true(peak: Peak, reference: Marched) -> Numbers:
+def _true(peak: Peak, reference: Marched) -> dict[str, float]:
     """Numbers of the reference at a peak."""
     scene, rom = to_march(reference.runs), reference.rom
     speeds = [peak.Omega_c + beside * peak.spacing for beside in BESIDE]
