@@ -68,7 +68,7 @@ def on_patches(
     """
     tip, xi = tip_of(facets, points), hat_nodes(patches)
     require_patches(len(xi), tip.xi(points[np.unique(facets)]))
-    at, dA, values = _quadrature(points[facets])
+    at, dA, values = quadrature(points[facets])
     at_xi = tip.xi(at.reshape(-1, 3))
     _require_on_chord(at_xi)
     phi, e = hats(at_xi, xi), directions(at.reshape(-1, 3))
@@ -94,20 +94,7 @@ def at_places(
     return _assembled(rows, free)
 
 
-def node_areas(solid: Solid) -> NDArray[np.float64]:
-    """Area (nodes,), m2, of the tip that belongs to each node of the mesh.
-
-    In proportion to the diagonal of the facets' mass matrices (Hinton, Rock and Zienkiewicz 1976),
-    since the integrals of the corners' shape functions are zero.
-    """
-    points, facets = solid.V.tabulate_dof_coordinates(), solid.tip
-    _, dA, values = _quadrature(points[facets])
-    diagonal = dA @ values**2
-    shares = dA.sum(axis=1, keepdims=True) * diagonal / diagonal.sum(axis=1, keepdims=True)
-    return np.bincount(facets.ravel(), shares.ravel(), len(points))
-
-
-def _quadrature(nodes: NDArray) -> tuple[NDArray, NDArray, NDArray]:
+def quadrature(nodes: NDArray) -> tuple[NDArray, NDArray, NDArray]:
     """Places (facets, points, 3), m, areas (facets, points), m2, and shape functions (points, 6).
 
     ``nodes`` (facets, 6, 3), m, are the nodes of the facets.

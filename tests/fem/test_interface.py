@@ -8,10 +8,11 @@ import ufl
 from dolfinx import fem
 from dolfinx.mesh import locate_entities_boundary, meshtags
 
-from fem.interface import interface_of, node_areas
+from fem.interface import interface_of
 from geometry.hats import hat_nodes, hats, middles
 from geometry.interface import tip_of
 from geometry.profile import profile_at
+from tests.simulate.interface.nodes import node_areas
 
 R = 0.5624
 

@@ -8,7 +8,6 @@ from projects import ROOT
 from scenes import scene
 from test_trade import cosine, single
 
-from fem.interface import node_areas
 from fem.solid import read_solid
 from geometry.tip import on_line
 from simulate.errors.observables import numbers
@@ -131,7 +130,7 @@ SUBTRIANGLES = [(0, 3, 5), (3, 1, 4), (5, 4, 2), (3, 4, 5)]  # of six nodes, VTK
 
 def test_the_areas_of_nodes_add_up_to_that_of_the_tip(solid):
     """That of four flat triangles in each facet, up to its curvature; every node has some."""
-    areas, points = node_areas(solid), solid.V.tabulate_dof_coordinates()
+    areas, points = nodes.node_areas(solid), solid.V.tabulate_dof_coordinates()
     a, b, c = points[solid.tip[:, SUBTRIANGLES].reshape(-1, 3).T]
     flat = np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2
     assert areas.sum() == pytest.approx(flat, rel=3e-3)
@@ -144,7 +143,7 @@ def test_a_flat_facet_gives_its_corners_a_nineteenth_each():
     corners = np.array([[0, 0, 0], [2, 0, 0], [0, 1, 1]], float)
     points = np.vstack([corners, (corners + np.roll(corners, -1, axis=0)) / 2])
     space = SimpleNamespace(tabulate_dof_coordinates=lambda: points)
-    areas = node_areas(SimpleNamespace(V=space, tip=np.arange(6)[None]))
+    areas = nodes.node_areas(SimpleNamespace(V=space, tip=np.arange(6)[None]))
     expected = np.sqrt(2) * np.repeat([3, 16], 3) / 57
     assert areas == pytest.approx(expected, rel=1e-12)
 
