@@ -4,9 +4,11 @@ Step, rods and strips are chosen from pilot runs at some of the speeds: first a 
 tip passes no more than its footprint and which resolves contact, then, where a coarser companion
 run (``errors.companion``) says that the error exceeds the accuracy, what the errors of step,
 strips and reduced model ask for. There are as many rods as steps. Patches and natural modes belong
-to the reduced model: where an accuracy that is not met needs a better one, it is refused. Each run
-of the sweep has a companion that is coarser in all of these. If the estimated error exceeds the
-accuracy, the run is repeated with shorter steps; if it still does, the run is `sensitive`. The
+to the reduced model. Where they, or the most strips, err too much for an accuracy, it is refused:
+only once a run misses it on the finest steps and strips, too, since on long steps and few strips
+model and strips seem to err by more than they do. Each run of the sweep has a companion that is
+coarser in all of these. If the estimated error exceeds the accuracy, the run is repeated with
+shorter steps; if it still does, the run is `sensitive`. The
 error of the mesh is estimated separately, from frequencies and compliances on a coarser mesh
 (``mesh-error.json``); a mesh whose error exceeds the accuracy is refused.
 """
@@ -24,6 +26,8 @@ from geometry.project import ProvenanceError, anew, read_json
 from rom.coarser import coarser
 from rom.model import Rom
 from simulate.errors.companion import (
+    STEP_RATIO,
+    Coarser,
     Fineness,
     Parts,
     error_by_part,
@@ -162,16 +166,16 @@ def choose(scene: Scene, rom: Rom, doubt: Doubt) -> Choice:
         if worst.largest_error <= MET * scene.accuracy or now.steps_per_round >= MOST_STEPS:
             break
         parts = error_by_part(worst, coarse)
-        if attempt > 0:  # else the steps may be too long to tell
-            _require_parts(scene.accuracy, now.strips, parts)
+        if attempt > 1:  # else the steps may be too long to tell
+            _require_finest(worst, scene, rom, coarse, parts)
         before, old = runs, now
-        now, expected = _finer(scene, rom, now, parts)
+        now, expected = _finer(scene, rom, old, parts)
         runs = {Omega: march_with_errors(scene, rom, coarse, Omega, now) for Omega in before}
         converging = _converging(before, runs, now.steps_per_round / old.steps_per_round)
         worst = max(converging or [min(runs.values(), key=_error)], key=_error)
     worst = max(runs.values(), key=_error)
     if worst.largest_error > MET * scene.accuracy:
-        _require_parts(scene.accuracy, now.strips, error_by_part(worst, coarse))
+        _require_finest(worst, scene, rom, coarse, error_by_part(worst, coarse))
     return Choice(
         accuracy=scene.accuracy,
         **vars(now),
@@ -211,59 +215,73 @@ def _finer(scene: Scene, rom: Rom, now: Fineness, parts: Parts) -> tuple[Finenes
     left = sqrt(max((TARGET * scene.accuracy) ** 2 - fixed, LEAST_REMAINING * scene.accuracy**2))
     growth = min(max(sqrt(parts.step / left), 1.0), MOST_GROWTH)
     steps = multiple_of_samples(scene, min(growth * now.steps_per_round, MOST_STEPS))
+    if (steps, strips) == (now.steps_per_round, now.strips):  # they are small, or seem so
+        steps, strips = min(STEP_RATIO * steps, MOST_STEPS), _most_strips(scene, rom)
     of_step = parts.step * (now.steps_per_round / steps) ** 2
     return _with_rods(scene, rom, steps, strips), sqrt(of_step**2 + fixed)
 
 
-def _require_parts(accuracy: float, strips: int, parts: Parts) -> None:
-    """Refuse an accuracy of which model and most strips leave too little to the step."""
-    if parts.model > MODEL_SHARE * accuracy:
-        raise SceneError(
-            "patches and natural modes of the reduced model cause a relative error of about "
-            f"{parts.model:.2g} in the recorded outputs; allowed up to {MODEL_SHARE:g} of the "
-            "accuracy: raise interface.patches or basis.natural_modes in the blade's file",
-            key="accuracy",
-            value=accuracy,
-        )
-    most = max(MOST_STRIPS, strips)
-    fixed = (parts.strips * strips / most) ** 2 + parts.model**2
-    if fixed > (1 - LEAST_REMAINING) * accuracy**2:
-        raise SceneError(
-            f"needs more than {most} strips, whose relative error is {sqrt(fixed):.2g}: "
-            "give integrator, liner.rods_per_round and liner.strips instead",
-            key="accuracy",
-            value=accuracy,
-        )
+def _require_finest(worst: Run, scene: Scene, rom: Rom, coarse: Coarser, parts: Parts) -> None:
+    """Refuse an accuracy that the ``worst`` run misses with the finest steps and strips, too.
 
-
-def _first_strips(scene: Scene, rom: Rom) -> int:
-    """Strips of the first try, at least one for each patch; against a rigid casing as many."""
-    patches = len(rom.xi)
-    least = max(FIRST_STRIPS / sqrt(scene.accuracy), patches)
-    strips = min(STRIPS_BY * ceil(least / STRIPS_BY), max(MOST_STRIPS, patches))
-    return patches if scene.liner.rigid_key else strips
-
-
-def _strips_for(scene: Scene, rom: Rom, drafted: int, parts: Parts) -> int:
-    """Number of strips whose error, of second order in their width, is its share.
+    ``parts``: of that run. Where model or strips err too much by them, it is marched anew with
+    shorter steps and most strips: on long steps the coarser model can move in another way.
 
     Raises
     ------
     SceneError
-        When a rigid casing would need more strips than there are patches.
+        As ``choose``.
     """
+    most, now = _most_strips(scene, rom), Fineness.of(worst.setup)
+    if not _refusal(scene, parts, now.strips, most):
+        return
+    steps = min(MOST_GROWTH * now.steps_per_round, MOST_STEPS)
+    finest = _with_rods(scene, rom, steps, most)
+    run = march_with_errors(scene, rom, coarse, worst.setup.Omega, finest)
+    if run.largest_error > MET * scene.accuracy:
+        why = _refusal(scene, error_by_part(run, coarse), most, most)
+        if why:
+            raise SceneError(why, key="accuracy", value=scene.accuracy)
+
+
+def _refusal(scene: Scene, parts: Parts, strips: int, most: int) -> str:
+    """Why model and ``most`` strips leave too little of the accuracy to the step; empty if not."""
+    if parts.model > MODEL_SHARE * scene.accuracy:
+        return (
+            "patches and natural modes of the reduced model cause a relative error of about "
+            f"{parts.model:.2g} in the recorded outputs; allowed up to {MODEL_SHARE:g} of the "
+            "accuracy: raise interface.patches or basis.natural_modes in the blade's file"
+        )
+    of_strips = parts.strips * (strips / most) ** 2
+    fixed = sqrt(of_strips**2 + parts.model**2)
+    if fixed <= sqrt(1 - LEAST_REMAINING) * scene.accuracy:
+        return ""
+    needs = f"needs more than {most} strips, whose relative error is {fixed:.2g}"
+    if rigid := scene.liner.rigid_key:
+        return (
+            f"{needs}; against a rigid casing ({rigid}) there are as many as patches of the "
+            "reduced model: raise interface.patches in the blade's file"
+        )
+    return f"{needs}: give integrator, liner.rods_per_round and liner.strips instead"
+
+
+def _most_strips(scene: Scene, rom: Rom) -> int:
+    """As many as the patches against a rigid casing, else more."""
+    patches = len(rom.xi)
+    return patches if scene.liner.rigid_key else max(MOST_STRIPS, patches)
+
+
+def _first_strips(scene: Scene, rom: Rom) -> int:
+    """Strips of the first try, at least one for each patch."""
+    least = max(FIRST_STRIPS / sqrt(scene.accuracy), len(rom.xi))
+    return min(STRIPS_BY * ceil(least / STRIPS_BY), _most_strips(scene, rom))
+
+
+def _strips_for(scene: Scene, rom: Rom, drafted: int, parts: Parts) -> int:
+    """Number of strips whose error, of second order in their width, is its share."""
     growth = min(sqrt(parts.strips / (STRIP_SHARE * scene.accuracy)), MOST_GROWTH)
     needed = STRIPS_BY * ceil(growth * drafted / STRIPS_BY)
-    strips = max(min(needed, MOST_STRIPS), drafted)
-    if scene.liner.rigid_key and strips > len(rom.xi):
-        raise SceneError(
-            f"needs {strips} strips; against a rigid casing ({scene.liner.rigid_key}) at most as "
-            f"many as the {len(rom.xi)} patches of the reduced model are allowed: raise "
-            "interface.patches in the blade's file",
-            key="accuracy",
-            value=scene.accuracy,
-        )
-    return strips
+    return max(min(needed, _most_strips(scene, rom)), drafted)
 
 
 def march_to_accuracy(scene: Scene, rom: Rom, Omega: float, choice: Choice) -> Run:

@@ -73,7 +73,8 @@ class Scene(SettingsFile):
         ge=0.005,  # below, the error of wear is no longer of second order in the width of rods
         le=0.1,  # above, a step would pass more than the footprint
         description="Relative error allowed in the recorded outputs; replaces integrator, "
-        "liner.rods_per_round and liner.strips, which are then chosen",
+        "liner.rods_per_round and liner.strips, which are then chosen; costs 3 to 4 times what the "
+        "best fixed setting does",
     )
     damping_ratio: float = Field(ge=0, lt=1, description="xi of every mode of K(Omega)")
     clearance: Clearance = Field(description="Gaps in operation, before the casing distorts")

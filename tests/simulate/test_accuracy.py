@@ -209,6 +209,20 @@ def test_drawn_scenes_meet_their_accuracy(asked, reference, rotor37, monkeypatch
     assert np.nanquantile(cost, 0.9) <= 3
 
 
+@pytest.mark.parametrize(("seed", "E", "K"), [(6, 29.0, 13.05), (2, 7.0, 1.0)])
+def test_a_demand_is_met_where_a_finer_one_is(seed, E, K, reference):
+    """On long steps the coarser model can move in another way: its part seems larger than it is."""
+    case = drawn(np.random.default_rng(seed), "reference")
+    case, met = case.but(liner__law__E=E, liner__law__K=K), []
+    for asked in (0.1, 0.05, 0.03, 0.02, 0.01):
+        try:
+            choose(case.but(accuracy=asked), reference.own, Doubt(0.0, None))
+            met.append(True)
+        except SceneError:
+            met.append(False)
+    assert met == sorted(met, reverse=True) and any(met)
+
+
 @pytest.fixture(scope="module")
 def asking(reference):
     """A small scene with an accuracy, its model, its choice, a speed, the coarser model."""
