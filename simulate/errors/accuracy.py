@@ -14,7 +14,7 @@ error of the mesh is estimated separately, from frequencies and compliances on a
 """
 
 from dataclasses import dataclass, field, fields, replace
-from math import cbrt, ceil, isfinite, sqrt
+from math import cbrt, ceil, hypot, isfinite, sqrt
 from operator import attrgetter
 from pathlib import Path
 from typing import Any, Self
@@ -26,7 +26,6 @@ from geometry.project import ProvenanceError, anew, read_json
 from rom.coarser import coarser
 from rom.model import Rom
 from simulate.errors.companion import (
-    STEP_RATIO,
     Coarser,
     Fineness,
     Parts,
@@ -52,6 +51,7 @@ STRIP_SHARE, MODEL_SHARE = 0.5, 0.5  # of the accuracy; errors add up as the roo
 LEAST_REMAINING = 0.2  # share of the accuracy, squared, for the step
 MET, TARGET = 0.85, 0.75  # of the accuracy, by the pilot: errors at other speeds may be larger
 MOST_GROWTH = 4  # of steps and strips from one try to the next: orders hold for small errors only
+LITTLE_GROWTH = 1.4  # of steps whose error is small, or seems so
 TRIES = 4  # of the pilot
 REPEATS, MOST_REFINED = 2, 2  # of a run with shorter steps, and how much shorter each time
 LEAST_ORDER = 0.5  # least order in the step of a converging error; 2 for small steps
@@ -216,7 +216,8 @@ def _finer(scene: Scene, rom: Rom, now: Fineness, parts: Parts) -> tuple[Finenes
     growth = min(max(sqrt(parts.step / left), 1.0), MOST_GROWTH)
     steps = multiple_of_samples(scene, min(growth * now.steps_per_round, MOST_STEPS))
     if (steps, strips) == (now.steps_per_round, now.strips):  # they are small, or seem so
-        steps, strips = min(STEP_RATIO * steps, MOST_STEPS), _most_strips(scene, rom)
+        steps = multiple_of_samples(scene, min(LITTLE_GROWTH * steps, MOST_STEPS))
+        strips = _most_strips(scene, rom)
     of_step = parts.step * (now.steps_per_round / steps) ** 2
     return _with_rods(scene, rom, steps, strips), sqrt(of_step**2 + fixed)
 
@@ -235,13 +236,11 @@ def _require_finest(worst: Run, scene: Scene, rom: Rom, coarse: Coarser, parts: 
     most, now = _most_strips(scene, rom), Fineness.of(worst.setup)
     if not _refusal(scene, parts, now.strips, most):
         return
-    steps = min(MOST_GROWTH * now.steps_per_round, MOST_STEPS)
-    finest = _with_rods(scene, rom, steps, most)
+    finest = _with_rods(scene, rom, min(MOST_GROWTH * now.steps_per_round, MOST_STEPS), most)
     run = march_with_errors(scene, rom, coarse, worst.setup.Omega, finest)
-    if run.largest_error > MET * scene.accuracy:
-        why = _refusal(scene, error_by_part(run, coarse), most, most)
-        if why:
-            raise SceneError(why, key="accuracy", value=scene.accuracy)
+    missed = run.largest_error > MET * scene.accuracy
+    if missed and (why := _refusal(scene, error_by_part(run, coarse), most, most)):
+        raise SceneError(why, key="accuracy", value=scene.accuracy)
 
 
 def _refusal(scene: Scene, parts: Parts, strips: int, most: int) -> str:
@@ -252,8 +251,7 @@ def _refusal(scene: Scene, parts: Parts, strips: int, most: int) -> str:
             f"{parts.model:.2g} in the recorded outputs; allowed up to {MODEL_SHARE:g} of the "
             "accuracy: raise interface.patches or basis.natural_modes in the blade's file"
         )
-    of_strips = parts.strips * (strips / most) ** 2
-    fixed = sqrt(of_strips**2 + parts.model**2)
+    fixed = hypot(parts.strips * (strips / most) ** 2, parts.model)
     if fixed <= sqrt(1 - LEAST_REMAINING) * scene.accuracy:
         return ""
     needs = f"needs more than {most} strips, whose relative error is {fixed:.2g}"

@@ -4,7 +4,6 @@ Rows are those of workflow/experiments/bars.yaml.
 """
 
 from statistics import median
-from typing import Any
 
 import xarray as xr
 
@@ -16,10 +15,8 @@ from simulate.sweeps.peak import Peak
 from simulate.sweeps.peak_results import at_peak, results, to_march
 from workflow.experiment.engine import Marched
 
-BESIDE = (-0.5, 0.0, 0.5)  # spacings of the sweep from a peak, where the reference is marched
 
-
-def held(runs: xr.Dataset, rom: Rom, reference: Marched | None) -> dict[str, Any]:
+def held(runs: xr.Dataset, rom: Rom, reference: Marched | None) -> dict[str, float]:
     """How many numbers are off from the ``reference`` by no more, or by over twice, their +-.
 
     Of the peaks along engine orders; amplitudes are compared with the largest of the reference at
@@ -46,9 +43,9 @@ def held(runs: xr.Dataset, rom: Rom, reference: Marched | None) -> dict[str, Any
 
 
 def _true(peak: Peak, reference: Marched) -> dict[str, float]:
-    """Numbers of the reference at a peak."""
+    """Numbers of the reference at a peak, and half the spacing of the sweep beside it."""
     scene, rom = to_march(reference.runs), reference.rom
-    speeds = [peak.Omega_c + beside * peak.spacing for beside in BESIDE]
+    speeds = [peak.Omega_c + beside * peak.spacing for beside in (-0.5, 0.0, 0.5)]
     setups = [prepare(scene, rom, min(over_f1 * rom.omega1, rom.Omega_m)) for over_f1 in speeds]
     found = [at_peak(Case(scene, rom, setup), peak.k) for setup in setups]
     return found[1] | {"amplitude": max(of["amplitude"] for of in found)}
