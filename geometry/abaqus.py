@@ -13,15 +13,15 @@ from pathlib import Path
 
 import numpy as np
 
-from geometry.file_mesh import FileMesh, tetrahedra_of
+from geometry.file_mesh import FileMesh, Solids, as_tetrahedra
 from geometry.project import MeshError, number, read_text, shown
-from geometry.tetrahedra import FACETS
+from geometry.split import KINDS, NODES
 
-SOLID = re.compile(r"(?:C3D|CTETRA)(\d+)")
-PLANE = re.compile(r"(?:S|STRI|CTRIA|CPS|CPE|CPEG|CAX|M3D|SFM3D|R3D|DS)(\d)")  # shells and the like
+SOLID = re.compile(r"(?:C3D|CTETRA|CHEXA|CPENTA|CPYRAM)(\d+)")
+# shells and the like
+PLANE = re.compile(r"(?:S|STRI|CTRIA|CQUAD|CPS|CPE|CPEG|CAX|M3D|SFM3D|R3D|DS)(\d)")
 LINE = re.compile(r"B\d|T[23]D|R2D|RB|PIPE|FRAME|SPRING|DASHPOT|GAP|MASS|ROTARYI|CONN|DCOUP")
-KINDS = {"4": "tetra", "10": "tetra10"}
-SIDES = {f"S{i}": facet[:3] for i, facet in enumerate(FACETS, 1)}  # corners, of tetrahedra
+CORNERS = {3: 3, 6: 3, 4: 4, 8: 4, 9: 4}  # of shells, by the number of their nodes
 MOST_DIGITS = 10  # of a number
 MOST_UNUSED = 0.1  # of the nodes: those of reference points and beams are fewer
 # a row with options: one that has a value, or first one that has none
@@ -68,7 +68,7 @@ def read_deck(path: Path) -> FileMesh:
     ------
     MeshError
         When it includes other files, has parts with a numbering of their own, cards that generate
-        nodes or elements, solid elements other than tetrahedra, or is damaged: a line that cannot
+        nodes or elements, solid elements that are not read, or is damaged: a line that cannot
         be read, a node or element that is incomplete or defined twice in different ways, a set of
         some that are not defined.
     """
@@ -79,7 +79,7 @@ def read_deck(path: Path) -> FileMesh:
     # a deck has no end, and may lack its last elements
     if cards[-1].keyword == "ELEMENT" and unused > MOST_UNUSED * nodes:
         raise MeshError(
-            f"{unused} of {nodes} nodes belong to no tetrahedron: is the file cut short?"
+            f"{unused} of {nodes} nodes belong to no solid cell: is the file cut short?"
         )
     return mesh
 
@@ -109,17 +109,16 @@ def mesh_of(cards: list[Card]) -> FileMesh:
             faces[card.option("NAME")] = _surface(card, elements, element_sets)
     row = {number: i for i, number in enumerate(nodes)}
     rows = np.vectorize(row.__getitem__, otypes=[int])
-    return FileMesh(
-        points=np.array(list(nodes.values()), dtype=float),
-        cells=tetrahedra_of(
-            [
-                (KINDS.get(solid[1], kind), rows([of for k, of in elements.values() if k == kind]))
-                for kind in sorted({kind for kind, _ in elements.values()})
-                if (solid := SOLID.match(kind))
-            ]
-        ),
-        node_groups={name: rows(numbers) for name, numbers in node_sets.items()},
-        face_groups={name: rows(corners).reshape(-1, 3) for name, corners in faces.items()},
+    kinds = sorted({kind for kind, _ in elements.values() if SOLID.match(kind)})
+    of_kinds = {kind: [i for i, (of, _) in elements.items() if of == kind] for kind in kinds}
+    return as_tetrahedra(
+        np.array(list(nodes.values()), dtype=float),
+        [
+            Solids(kind, rows([elements[i][1] for i in of]), np.array(of))
+            for kind, of in of_kinds.items()
+        ],
+        {name: rows(numbers) for name, numbers in node_sets.items()},
+        {name: [[row[i] for i in face] for face in corners] for name, corners in faces.items()},
     )
 
 
@@ -227,7 +226,10 @@ def _numbering(card: Card) -> list[list[int]]:
         return [[_whole(value, line) for value in row if value] for line, row in card.rows]
     known = PLANE.match(kind) or SOLID.match(kind)
     if not known:
-        raise MeshError(f"holds elements {kind}: only tetrahedra are read", line=card.line)
+        raise MeshError(
+            f"holds elements {kind}: read are tetrahedra, bricks, wedges and pyramids",
+            line=card.line,
+        )
     length = int(known[1]) + 1
     read: list[list[int]] = []
     for line, cells in card.rows:
@@ -315,23 +317,31 @@ def _numbers(value: str, sets: _Sets, line: int, known: Collection[int]) -> list
 
 
 def _shells(numbers: list[int], elements: _Elements) -> list[list[int]]:
-    """Corner nodes of the triangles among ``elements``."""
+    """Corner nodes of the triangles and quadrilaterals among ``elements``."""
     return [
-        nodes[:3]
+        nodes[: CORNERS[len(nodes)]]
         for kind, nodes in map(elements.get, numbers)
-        if PLANE.match(kind) and len(nodes) in (3, 6)
+        if PLANE.match(kind) and len(nodes) in CORNERS
     ]
 
 
 def _surface(card: Card, elements: _Elements, sets: _Sets) -> list[list[int]]:
-    """Corner nodes of the faces of a surface: shells, or sides of tetrahedra."""
+    """Corner nodes of the faces of a surface: shells, or sides of solid elements."""
     faces = []
     for line, (value, *side) in card.rows:
         numbers = _numbers(value, sets, line, elements)
         faces += _shells(numbers, elements)
         solids = [nodes for kind, nodes in map(elements.get, numbers) if SOLID.match(kind)]
-        corners = SIDES.get("".join(side).upper())
-        if solids and corners is None:
-            raise MeshError("a surface of solid elements needs their sides, S1 to S4", line=line)
-        faces += [[nodes[i] for i in corners] for nodes in solids]
+        faces += [_side(nodes, "".join(side).upper(), line) for nodes in solids]
     return faces
+
+
+def _side(nodes: list[int], side: str, line: int) -> list[int]:
+    """Corner nodes of a side of a solid element, as ``S1``."""
+    sides = KINDS[NODES[len(nodes)][0]].faces
+    named = {f"S{i}": face for i, face in enumerate(sides, 1)}
+    if side not in named:
+        raise MeshError(
+            f"a surface of solid elements needs their sides, here S1 to S{len(sides)}", line=line
+        )
+    return [nodes[i] for i in named[side]]

@@ -16,16 +16,22 @@ from mapdl_archive import Archive
 from mapdl_archive.elements import ETYPE_MAP
 from numpy.typing import NDArray
 
-from geometry.file_mesh import FileMaterial, FileMesh, require_all, tetrahedra_of
+from geometry.file_mesh import FileMaterial, FileMesh, Solids, as_tetrahedra, require_all
 from geometry.project import MeshError
 
 FACE, BRICK, TETRAHEDRON = 3, 4, 5  # values of ETYPE_MAP, by the number of an element type
-MESH200, OF_TRIANGLES = 200, (4, 5)  # the type that only meshes, and its KEYOPT(1) of triangles
+MESH200, OF_FACES = 200, (4, 5, 6, 7)  # the type that only meshes, and its KEYOPT(1) of faces
 HEADER = 10  # numbers of an element before its nodes
 MATERIAL, TYPE, NUMBER = 0, 1, 8  # places among them
-# nodes of a brick whose corners are those of a tetrahedron, I J K K M M M M, in VTK's order
-COLLAPSED = {8: [0, 1, 2, 4], 20: [0, 1, 2, 4, 8, 9, 11, 16, 17, 18]}
-BRICKS = {5: "pyramid", 6: "wedge", 8: "hexahedron"}  # by the number of different corners
+# nodes of a brick that are those of another cell, by the number of different corners; VTK's order
+COLLAPSED = {
+    4: ("tetra", [0, 1, 2, 4, 8, 9, 11, 16, 17, 18]),  # I J K K M M M M
+    5: ("pyramid", [0, 1, 2, 3, 4, 8, 9, 10, 11, 16, 17, 18, 19]),  # I J K L M M M M
+    6: ("wedge", [0, 1, 2, 4, 5, 6, 8, 9, 11, 12, 13, 15, 16, 17, 18]),  # I J K K M N O O
+    8: ("hexahedron", [*range(20)]),
+}
+TEN = "tetra", [*range(10)]
+OTHER, MOST_NODES, ABSENT = "cells of another kind", 20, -1
 LABELS = {"EX": "young_modulus", "PRXY": "poisson_ratio", "NUXY": "poisson_ratio"}
 LABELS |= {"DENS": "density"}
 EXPORT = "export it anew with `CDWRITE,DB`"
@@ -47,7 +53,7 @@ def read_archive(path: Path) -> FileMesh:
     ------
     MeshError
         When its blocks are missing, damaged or more than one of nodes, a cell lacks a middle node,
-        or it has solid elements other than tetrahedra.
+        or it has solid elements that are not read.
     """
     lines = path.read_text(encoding="latin-1").splitlines()
     nodes, elements = _declared(lines)
@@ -58,14 +64,14 @@ def read_archive(path: Path) -> FileMesh:
     row[archive.nnum] = np.arange(len(archive.nnum))
     row[0] = -1  # a middle node that is not there
     solids, faces = _sorted(archive, row)
-    return FileMesh(
-        points=np.asarray(archive.nodes, dtype=float),
-        cells=_cells(solids),
+    return as_tetrahedra(
+        np.asarray(archive.nodes, dtype=float),
+        _solids(solids),
         node_groups={
             name.upper(): _rows(numbers, row) for name, numbers in archive.node_components.items()
         },
-        face_groups={
-            name.upper(): np.array([faces[i] for i in numbers if i in faces], int).reshape(-1, 3)
+        faces={
+            name.upper(): [faces[i] for i in numbers if i in faces]
             for name, numbers in archive.element_components.items()
         },
         materials=_materials(lines, {element.material for element in solids}),
@@ -103,13 +109,13 @@ def _require_numbers(lines: list[str]) -> None:
 
 
 def _sorted(archive: Archive, row: NDArray) -> tuple[list[_Element], dict[int, list[int]]]:
-    """Solid elements, and corners of triangles by their number; others are left out."""
+    """Solid elements, and corners of faces by their number; others are left out."""
     types = dict(archive.ekey.tolist())
-    triangles = {
+    meshing = {
         key
         for key, number in types.items()
         for option, value in archive.key_option.get(key, ())
-        if number == MESH200 and option == 1 and value in OF_TRIANGLES
+        if number == MESH200 and option == 1 and value in OF_FACES
     }
     solids, faces = [], {}
     for values in archive.elem:
@@ -121,14 +127,11 @@ def _sorted(archive: Archive, row: NDArray) -> tuple[list[_Element], dict[int, l
         category = ETYPE_MAP[kind]
         if category in (BRICK, TETRAHEDRON):
             solids.append(_solid(values, nodes, category))
-        elif (category == FACE or values[TYPE] in triangles) and _is_triangle(nodes):
-            faces[int(values[NUMBER])] = nodes[:3].tolist()
+        elif category == FACE or values[TYPE] in meshing:
+            # a triangle has three or six nodes, or those of a quadrilateral with I J K K
+            corners = 4 if len(nodes) in (4, 8) and nodes[2] != nodes[3] else 3
+            faces[int(values[NUMBER])] = nodes[:corners].tolist()
     return solids, faces
-
-
-def _is_triangle(nodes: NDArray) -> bool:
-    """Three or six nodes, or those of a quadrilateral with I J K K."""
-    return len(nodes) in (3, 6) or (len(nodes) > 3 and nodes[2] == nodes[3])
 
 
 def _rows(numbers: NDArray, row: NDArray, absent: int | None = None) -> NDArray:
@@ -143,24 +146,32 @@ def _rows(numbers: NDArray, row: NDArray, absent: int | None = None) -> NDArray:
 
 
 def _solid(values: NDArray, nodes: NDArray, category: int) -> _Element:
-    corners = len(np.unique(nodes[:8]))
-    if category == BRICK and corners == 4 and len(nodes) in COLLAPSED:
-        nodes, category = nodes[COLLAPSED[len(nodes)]], TETRAHEDRON
-    of_tetrahedron = "tetra" if len(nodes) == 4 else "tetra10"
-    of_brick = BRICKS.get(corners, "cells of another kind")
-    kind = of_tetrahedron if category == TETRAHEDRON else of_brick
-    return _Element(int(values[NUMBER]), int(values[MATERIAL]), kind, nodes[:10])
+    """A solid element; without nodes where its corners coincide in a way that is not known."""
+    brick = category == BRICK
+    corners = len(np.unique(nodes[:8])) if brick else 4
+    kind, places = COLLAPSED.get(corners, (OTHER, [])) if brick else TEN
+    if len(nodes) == (8 if brick else 4):  # of first order
+        places = places[:corners]
+    own = np.append(nodes, np.full(MOST_NODES, ABSENT))[places]
+    if len(np.unique(own[:corners])) < corners:
+        kind, own = OTHER, own[:0]
+    return _Element(int(values[NUMBER]), int(values[MATERIAL]), kind, own)
 
 
-def _cells(solids: list[_Element]) -> NDArray:
-    lacking = [s for s in solids if s.kind == "tetra10" and (len(s.nodes) < 10 or min(s.nodes) < 0)]
-    if lacking:
+def _solids(elements: list[_Element]) -> list[Solids]:
+    """Elements by kind."""
+    if lacking := [of for of in elements if ABSENT in of.nodes]:
         raise MeshError(
-            f"{len(lacking)} of {len(solids)} cells lack middle nodes, among them element "
+            f"{len(lacking)} of {len(elements)} cells lack middle nodes, among them element "
             f"{lacking[0].number}: keep the middle nodes of all"
         )
-    kinds = sorted({solid.kind for solid in solids})
-    return tetrahedra_of([(k, np.array([s.nodes for s in solids if s.kind == k])) for k in kinds])
+    by_kind: dict[tuple[str, int], list[_Element]] = {}
+    for of in elements:
+        by_kind.setdefault((of.kind, len(of.nodes)), []).append(of)
+    return [
+        Solids(kind, np.array([of.nodes for of in same]), np.array([of.number for of in same]))
+        for (kind, _), same in sorted(by_kind.items())
+    ]
 
 
 def _materials(lines: list[str], used: set[int]) -> tuple[FileMaterial, ...]:

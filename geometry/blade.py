@@ -134,7 +134,7 @@ class Cad(SolidFile):
 
 
 class MeshFile(SolidFile):
-    """Blade from a mesh of tetrahedra: Abaqus/CalculiX, Ansys, Nastran, Gmsh or VTK."""
+    """Blade from a mesh of another program: Abaqus/CalculiX, Ansys, Nastran, Gmsh or VTK."""
 
 
 class MeshSize(Settings):

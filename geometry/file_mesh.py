@@ -3,13 +3,17 @@
 Materials are shown, and compared with that of the blade, which is taken.
 """
 
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from geometry.blade import Material
 from geometry.project import MeshError
+from geometry.split import NODES, Block, split, triangles_of
 
 UNITS = {  # of stress (Pa) and of density (kg/m3) by that of length, as programs pair them
     "m": (1.0, 1.0, "Pa and kg/m3"),
@@ -57,18 +61,16 @@ class FileMaterial:
 
 @dataclass
 class FileMesh:
-    """A mesh in the unit and axes of its file."""
+    """A mesh in the unit and axes of its file, as tetrahedra."""
 
     points: NDArray[np.float64]  # (n, 3)
-    cells: NDArray[np.int64]  # (m, 4) or (m, 10), nodes in VTK's order
+    cells: NDArray[np.int64]  # (m, 10), nodes in VTK's order
+    numbers: NDArray[np.int64]  # (m,), of the cells of the file that they are of
     node_groups: dict[str, NDArray] = field(default_factory=dict)  # nodes (k,)
     face_groups: dict[str, NDArray] = field(default_factory=dict)  # corner nodes (k, 3), k may be 0
     materials: tuple[FileMaterial, ...] = ()  # of its cells, where the file names them
-
-    @property
-    def facet_nodes(self) -> int:
-        """Number of nodes of a facet in the file: three, or six with the mid-edge nodes."""
-        return 3 if self.cells.shape[1] == 4 else 6
+    first_order: bool = False  # its cells have no middle nodes in the file
+    made: str = ""  # of what its tetrahedra are, where the file has other cells
 
     @property
     def groups(self) -> set[str]:
@@ -89,6 +91,73 @@ class FileMesh:
         )
 
 
+class Solids(NamedTuple):
+    """Solid cells of one kind."""
+
+    kind: str  # as the file names it
+    nodes: NDArray[np.int64]  # (m, k), in VTK's order; of kinds that are not read k may be 0
+    numbers: NDArray[np.int64]  # (m,)
+
+
+def as_tetrahedra(
+    points: NDArray[np.float64],
+    solids: Sequence[Solids],
+    node_groups: Mapping[str, NDArray],
+    faces: Mapping[str, Sequence[Sequence[int]]],
+    materials: tuple[FileMaterial, ...] = (),
+) -> FileMesh:
+    """The mesh of all solid cells, as tetrahedra (``geometry.split``).
+
+    ``faces``: corners of triangles and quadrilaterals by group.
+
+    Raises
+    ------
+    MeshError
+        When there are none, some of other kinds, or of first and of second order; as ``split``.
+    """
+    blocks = _blocks(solids)
+    found = split(points, blocks)
+    made = ""
+    if any(block.corners.shape[1] != 4 for block in blocks):
+        given = len(np.unique(np.concatenate([block.nodes.ravel() for block in blocks])))
+        made = (
+            f"{_held(solids)} on {given} nodes, split into {len(found.cells)} ten-node tetrahedra "
+            f"on {len(np.unique(found.cells))} nodes"
+        )
+    return FileMesh(
+        points=found.points,
+        cells=found.cells,
+        numbers=found.numbers,
+        node_groups={name: found.with_new(nodes) for name, nodes in node_groups.items()},
+        face_groups={name: triangles_of(of) for name, of in faces.items()},
+        materials=materials,
+        first_order=not blocks[0].second_order,
+        made=made,
+    )
+
+
+def _blocks(solids: Sequence[Solids]) -> list[Block]:
+    if not any(len(of.nodes) for of in solids):
+        raise MeshError("holds no tetrahedra, bricks, wedges or pyramids")
+    if other := [of for of in solids if of.nodes.shape[1] not in NODES]:
+        raise MeshError(
+            f"holds {_held(other)}: read are tetrahedra, bricks, wedges and pyramids of first or "
+            "second order"
+        )
+    blocks = [Block(of.nodes, of.numbers) for of in solids if len(of.nodes)]
+    if len({block.second_order for block in blocks}) > 1:
+        raise MeshError(f"mixes cells of first and second order, {_held(solids)}: export one order")
+    return blocks
+
+
+def _held(solids: Sequence[Solids]) -> str:
+    """How many cells of each kind."""
+    counts: Counter[str] = Counter()
+    for of in solids:
+        counts[of.kind] += len(of.nodes)
+    return ", ".join(f"{count} {kind}" for kind, count in sorted(counts.items()) if count)
+
+
 def require_all(what: str, declared: int | None, read: int, remedy: str) -> None:
     """Refuse a file of which readers leave out a part of what it declares; None: it does not say.
 
@@ -99,25 +168,3 @@ def require_all(what: str, declared: int | None, read: int, remedy: str) -> None
     """
     if declared not in (None, read):
         raise MeshError(f"declares {declared} {what}, of which {read} are read: {remedy}")
-
-
-def tetrahedra_of(blocks: list[tuple[str, NDArray]]) -> NDArray[np.int64]:
-    """Cells (m, 4) or (m, 10) of all ``blocks``, each with its kind and nodes.
-
-    Raises
-    ------
-    MeshError
-        When they are not tetrahedra of one kind.
-    """
-    counts = {kind: sum(len(data) for k, data in blocks if k == kind) for kind, _ in blocks}
-    if other := set(counts) - {"tetra", "tetra10"}:
-        held = ", ".join(f"{counts[kind]} {kind}" for kind in sorted(other))
-        raise MeshError(f"holds {held}: only tetrahedra with four or ten nodes are read")
-    if len(counts) == 2:
-        raise MeshError(
-            f"mixes {counts['tetra']} four-node and {counts['tetra10']} ten-node tetrahedra: "
-            f"export one kind"
-        )
-    if not counts:
-        raise MeshError("holds no tetrahedra")
-    return np.vstack([data for _, data in blocks])

@@ -1,4 +1,4 @@
-"""Blade from a mesh of tetrahedra of another program."""
+"""Blade from a mesh of another program."""
 
 import warnings
 from pathlib import Path
@@ -12,55 +12,52 @@ from scipy.spatial import KDTree
 from geometry.blade import MeshFile
 from geometry.frame import rotation, to_blade
 from geometry.mesh_faces import root_and_tip
-from geometry.mesh_file import FileMesh, read_mesh_file
+from geometry.mesh_file import read_mesh_file
 from geometry.project import MeshError, MeshWarning
 from geometry.shape import CELL, FACET, Shape, jacobian_ratios
-from geometry.tetrahedra import EDGES, GMSH, MIRRORED, edge_lengths, exterior, raised
+from geometry.tetrahedra import EDGES, GMSH, MIRRORED, edge_lengths, exterior
 
 MOST_APART = 4.0  # times; 1.6 on our own meshes
 MOST_BENT = 0.5  # of an edge's length: half a circle; below 0.02 on our own meshes
 MERGED = 1e-3  # of the median edge; above 0.03 across a thin trailing edge
 FLAT = 1e-6  # radius of the sphere within a cell over that around it, 1 of a regular one
-WHY_RAISED = (
-    "four-node tetrahedra lock in bending (f1 some 4 to 11 % high): raised to ten nodes, but their "
-    "edges stay straight where the blade is curved; export ten-node tetrahedra"
+FACETED = (
+    "cells of first order are taken as ten-node tetrahedra, for four-node ones lock in bending (f1 "
+    "some 4 to 11 % high); but their edges stay straight where the blade is curved: export cells "
+    "of second order"
 )
 
 
 def import_mesh(source: MeshFile, path: str | Path) -> Shape:
     """Add the mesh at ``path`` to gmsh's model, as ten-node tetrahedra in the blade's frame.
 
-    Nodes that no tetrahedron uses are left out. Four-node tetrahedra are raised to second order,
-    with a ``MeshWarning``.
+    Nodes that no cell uses are left out. Cells of first order are raised to second, with a
+    ``MeshWarning``.
 
     Raises
     ------
     MeshError
-        When the file cannot be read, is not one solid of tetrahedra, has cells inside out or flat,
-        nodes that are not merged, a corner far from all others or a middle node far from its edge,
-        does not agree with ``source.frame``, or has no root or tip, or a tip that is a part of its
-        face.
+        When the file cannot be read, is not one solid, has cells inside out or flat, nodes that are
+        not merged, a corner far from all others or a middle node far from its edge, does not agree
+        with ``source.frame``, or has no root or tip, or a tip that is a part of its face.
     """
     mesh = read_mesh_file(path).without_unused()
-    points, cells = _second_order(mesh, to_blade(mesh.points, source), source)
+    if mesh.made:
+        print(f"{source.file}: {mesh.made}")
+    if mesh.first_order:
+        warnings.warn(f"{source.file}: {FACETED}", MeshWarning, stacklevel=2)
+    points, cells = to_blade(mesh.points, source), mesh.cells
+    if det(rotation(source.frame)) < 0:  # a left-handed frame mirrors the cells
+        cells = cells[:, MIRRORED]
     _check_bent(points, cells)
     surface = exterior(cells)
     _check_merged(points, cells, np.unique(surface))
     _check_apart(points, cells)
     _add_cells(points, cells)
-    _check_orientation(points[cells[:, :4]].mean(axis=1))
+    _check_orientation(points[cells[:, :4]].mean(axis=1), mesh.numbers)
     root, tip = root_and_tip(source, mesh, points, surface)
     _add_facets(root, tip)
     return Shape(solid=1, root=(1,), tip=(2,), materials=mesh.materials)
-
-
-def _second_order(mesh: FileMesh, points: NDArray, source: MeshFile) -> tuple[NDArray, NDArray]:
-    """Points and ten-node cells; reordered for a left-handed frame, which mirrors the cells."""
-    cells = mesh.cells
-    if mesh.facet_nodes == 3:
-        warnings.warn(f"{source.file}: {WHY_RAISED}", MeshWarning, stacklevel=3)
-        points, cells = raised(points, cells)
-    return points, cells if det(rotation(source.frame)) > 0 else cells[:, MIRRORED]
 
 
 def _check_apart(points: NDArray, cells: NDArray) -> None:
@@ -139,8 +136,11 @@ def _add_cells(points: NDArray, cells: NDArray) -> None:
     )
 
 
-def _check_orientation(middles: NDArray) -> None:
-    """Check the smallest Jacobian determinant of each cell, by gmsh's bound on its polynomial."""
+def _check_orientation(middles: NDArray, numbers: NDArray) -> None:
+    """Check the smallest Jacobian determinant of each cell, by gmsh's bound on its polynomial.
+
+    ``numbers`` (n,): of the cells of the file.
+    """
     cells = np.arange(len(middles)) + 1
     # the bounds of a flat cell would take milliseconds
     solid = np.abs(gmsh.model.mesh.getElementQualities(cells, "gamma")) > FLAT
@@ -150,7 +150,7 @@ def _check_orientation(middles: NDArray) -> None:
         raise MeshError(
             f"{np.sum(~(ratio > 0))} of {len(cells)} cells are inside out or flat; the worst "
             f"(Jacobian ratio {ratio[worst]:.2f}) is at {_place(middles[worst])} mm in the blade's "
-            "frame: repair the mesh"
+            f"frame, of cell {numbers[worst]} of the file: repair the mesh"
         )
 
 

@@ -122,7 +122,7 @@ def _of_group(key: str, given: str, mesh: FileMesh, surface: NDArray) -> NDArray
     elif group in mesh.node_groups:
         inside = np.zeros(mesh.cells.max() + 1, dtype=bool)
         inside[mesh.node_groups[group]] = True
-        chosen = inside[surface[:, : mesh.facet_nodes]].all(axis=1)
+        chosen = inside[surface].all(axis=1)
     else:
         raise MeshError(_why_not({given, group}, mesh), key=f"{key}.group", value=given)
     if not np.any(chosen):

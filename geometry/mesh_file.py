@@ -6,13 +6,15 @@ from pathlib import Path
 
 import meshio
 import numpy as np
+from meshio.gmsh.common import _gmsh_to_meshio_order
 from numpy.typing import NDArray
 
 from geometry.abaqus import read_deck
 from geometry.ansys import EXPORT, read_archive
-from geometry.file_mesh import FileMesh, require_all, tetrahedra_of
+from geometry.file_mesh import FileMesh, Solids, as_tetrahedra, require_all
 from geometry.nastran import read_bulk
 from geometry.project import MeshError, UserError, require_file
+from geometry.split import NODES, upright
 
 SECTION = re.compile(rb"^\$(Nodes|Elements)[ \r]*\n(.*?)^\$End\1", re.MULTILINE | re.DOTALL)
 ASCII = re.compile(rb"^\$MeshFormat\s+\S+\s+0\s", re.MULTILINE)
@@ -21,18 +23,23 @@ ANEW = {
     ".vtu": "write it as one piece of VTK's format 1.0",
     ".cdb": EXPORT,
 }
+SERENDIPITY = {"wedge18": "wedge15", "pyramid14": "pyramid13"}  # in Gmsh's order with meshio 5.3
+meshio._mesh.topological_dimension |= {"wedge15": 3, "pyramid13": 3}  # unknown to meshio 5.3
 meshio.gmsh.main._readers["4"] = meshio.gmsh._gmsh40  # gmsh writes 4 for version 4.0
 
 
 def _read_msh(path: Path) -> FileMesh:
-    """A mesh of Gmsh; of an ASCII section meshio reads what it declares, and leaves the rest."""
+    """A mesh of Gmsh, or a deck of cgx; of an ASCII section meshio reads what it declares."""
     data = path.read_bytes()
     if data.lstrip().startswith(b"*"):
-        raise MeshError("is a deck in the syntax of Abaqus, as cgx writes it: name it .inp")
+        return read_deck(path)
     sections = SECTION.findall(data)
     if sorted(name for name, _ in sections) != [b"Elements", b"Nodes"]:
         raise MeshError(f"needs one $Nodes and one $Elements, both with their end: {ANEW['.msh']}")
     mesh = meshio.gmsh.read(path)
+    for block in mesh.cells:
+        if block.type in SERENDIPITY:
+            block.data = _gmsh_to_meshio_order(SERENDIPITY[block.type], block.data)
     head, *lines = dict(sections)[b"Elements"].strip().splitlines()
     if ASCII.search(data):
         _require_all(mesh, len(lines) if len(head.split()) == 1 else int(head.split()[1]))
@@ -59,7 +66,8 @@ READERS: dict[str, Callable[[Path], FileMesh]] = {
     ".msh": _read_msh,
     ".vtu": _read_vtu,
 }
-TRIANGLES = ("triangle", "triangle6")
+# corners of faces in groups
+SHELLS = {"triangle": 3, "triangle6": 3, "quad": 4, "quad8": 4, "quad9": 4}
 MOST_VALUES = 1000  # an array with more different values is a field, not groups
 
 
@@ -72,7 +80,7 @@ def read_mesh_file(path: str | Path) -> FileMesh:
     ------
     MeshError
         When the file does not exist, has an unknown format, cannot be read whole, or has solid
-        cells other than tetrahedra.
+        cells that are not read.
     """
     path = Path(path)
     require_file(path, READERS)
@@ -94,23 +102,39 @@ def _of_meshio(mesh: meshio.Mesh) -> FileMesh:
     for block in mesh.cells:
         if not np.isin(block.data, np.arange(len(mesh.points))).all():
             raise MeshError(f"a {block.type} names a node that does not exist: is it cut short?")
-    return FileMesh(
+    blocks = [block for block in mesh.cells if block.dim == 3]
+    numbers = np.split(np.arange(sum(map(len, blocks))) + 1, np.cumsum([*map(len, blocks)])[:-1])
+    return as_tetrahedra(
         mesh.points,
-        tetrahedra_of([(block.type, block.data) for block in mesh.cells if block.dim == 3]),
+        [
+            Solids(block.type, _nodes(block, mesh.points), of)
+            for block, of in zip(blocks, numbers, strict=True)
+        ],
         node_groups={
             group: np.flatnonzero(mask)
             for name, data in mesh.point_data.items()
             for group, mask in _values(name, data).items()
         },
-        face_groups={name: _faces(mesh, members) for name, members in _cell_groups(mesh).items()},
+        faces={name: _faces(mesh, members) for name, members in _cell_groups(mesh).items()},
     )
 
 
-def _faces(mesh: meshio.Mesh, members: list[NDArray]) -> NDArray:
-    """Corner nodes (k, 3) of the triangles among ``members``, indices in each block of cells."""
-    blocks = zip(mesh.cells, members, strict=True)
-    faces = [block.data[chosen, :3] for block, chosen in blocks if block.type in TRIANGLES]
-    return np.vstack([np.empty((0, 3), dtype=int), *faces])
+def _nodes(block: meshio.CellBlock, points: NDArray) -> NDArray:
+    """Nodes of solid cells in our order; none of a kind that is not read."""
+    kind = block.type.rstrip("0123456789")
+    if NODES.get(block.data.shape[1], ("", False))[0] != kind:
+        return block.data[:, :0]
+    return upright(points, block.data)
+
+
+def _faces(mesh: meshio.Mesh, members: list[NDArray]) -> list[list[int]]:
+    """Corner nodes of the triangles and quadrilaterals among ``members``, indices in each block."""
+    return [
+        face
+        for block, chosen in zip(mesh.cells, members, strict=True)
+        if block.type in SHELLS
+        for face in block.data[chosen, : SHELLS[block.type]].tolist()
+    ]
 
 
 def _cell_groups(mesh: meshio.Mesh) -> dict[str, list[NDArray]]:

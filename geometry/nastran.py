@@ -1,4 +1,4 @@
-"""Reader of nodes, tetrahedra and triangles of a bulk data deck of Nastran or OptiStruct.
+"""Reader of nodes, solid cells and shells of a bulk data deck of Nastran or OptiStruct.
 
 meshio 5.3 also reads these decks, but leaves out continuation lines that begin with blanks and
 elements in large fields, and takes a deck without BEGIN BULK for an empty one.
@@ -11,20 +11,23 @@ from geometry.abaqus import INCLUDES, Card, mesh_of
 from geometry.file_mesh import FileMesh
 from geometry.project import MeshError, read_text
 
-SOLID = re.compile(r"C(TET|HEX|PEN|PYR)")
-TRIANGLES = ("CTRIA3", "CTRIA6", "CTRIAR")
+SOLIDS = {"CTETRA": (4, 10), "CPYRAM": (5, 13), "CPENTA": (6, 15), "CHEXA": (8, 20)}  # nodes
+UPRIGHT = {15: 6, 20: 8}  # their first middle node; those of upright edges stand before the upper
+SOLID = re.compile(r"C(TET|HEX|PEN|PYR)")  # others of this kind are refused
+SHELLS = dict.fromkeys(("CTRIA3", "CTRIA6", "CTRIAR"), "CTRIA3")  # by their corners
+SHELLS |= dict.fromkeys(("CQUAD4", "CQUAD8", "CQUADR"), "CQUAD4")
 END = ("ENDDATA", "END DATA", "END BULK")
 EXPONENT = re.compile(r"(?<=[\d.])(?=[-+])")  # without its letter: 1.5-3 is 1.5E-3
 
 
 def read_bulk(path: Path) -> FileMesh:
-    """Read a deck of a single file; triangles are grouped by the number of their property.
+    """Read a deck of a single file; shells are grouped by the number of their property.
 
     Raises
     ------
     MeshError
         When it includes other files or has no end, nodes stand twice, are incomplete or in other
-        coordinate systems, or elements lack nodes or are solids other than tetrahedra.
+        coordinate systems, or elements lack nodes.
     """
     return mesh_of([card for given in _cards(path) if (card := _translated(*given))])
 
@@ -41,12 +44,23 @@ def _translated(line: int, keyword: str, fields: list[str]) -> Card | None:
         row = [number, *(EXPONENT.sub("E", x) for x in others[:3])]
         return Card("NODE", {}, line, [(line, row)])
     nodes = [node for node in others if node]
-    if keyword in TRIANGLES:  # by their corners
-        options = {"TYPE": "CTRIA3", "ELSET": f"nastran:ref={second}"}
-        return Card("ELEMENT", options, line, [(line, [number, *nodes[:3]])])
-    kind = f"CTETRA{4 if len(nodes) == 4 else 10}" if keyword == "CTETRA" else keyword
-    element = Card("ELEMENT", {"TYPE": kind}, line, [(line, [number, *nodes])])
-    return element if SOLID.match(keyword) else None
+    if shell := SHELLS.get(keyword):
+        options = {"TYPE": shell, "ELSET": f"nastran:ref={second}"}
+        return Card("ELEMENT", options, line, [(line, [number, *nodes[: int(shell[-1])]])])
+    if not SOLID.match(keyword):
+        return None
+    first, most = SOLIDS.get(keyword, ("", ""))
+    kind = f"{keyword}{first if len(nodes) == first else most}"
+    return Card("ELEMENT", {"TYPE": kind}, line, [(line, [number, *_as_abaqus(nodes)])])
+
+
+def _as_abaqus(nodes: list[str]) -> list[str]:
+    """Nodes of a solid cell, its middle nodes in the order of Abaqus: lower, upper, upright."""
+    if (first := UPRIGHT.get(len(nodes))) is None:
+        return nodes
+    around = first // 2
+    lower, upright = first + around, first + 2 * around
+    return [*nodes[:lower], *nodes[upright:], *nodes[lower:upright]]
 
 
 def _cards(path: Path) -> list[tuple[int, str, list[str]]]:

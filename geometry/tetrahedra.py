@@ -18,15 +18,6 @@ MIRRORED = np.array([1, 0, 2, 3, 4, 6, 5, 8, 7, 9])  # corners 0 and 1 exchanged
 GMSH = np.array([0, 1, 2, 3, 4, 5, 6, 7, 9, 8])  # gmsh's order, with the last two exchanged
 
 
-def raised(points: NDArray, corners: NDArray) -> tuple[NDArray, NDArray]:
-    """Points and ten-node cells (n, 10) from four-node cells (n, 4), with mid-edge nodes."""
-    ends = np.sort(corners[:, EDGES].reshape(-1, 2), axis=1)
-    edges, edge = np.unique(ends, axis=0, return_inverse=True)
-    middles = points[edges].mean(axis=1)
-    cells = np.hstack([corners, len(points) + edge.reshape(-1, 6)])
-    return np.vstack([points, middles]), cells
-
-
 def edge_lengths(points: NDArray, cells: NDArray) -> NDArray[np.float64]:
     """Distances (n, 6) of the ends of each edge of ``cells``."""
     ends = points[cells[:, EDGES]]
@@ -51,7 +42,7 @@ def exterior(cells: NDArray) -> NDArray[np.int64]:
         return_counts=True,
     )
     _check_shared(cells_of)
-    _check_middles(cells)
+    check_middles(np.sort(cells[:, EDGES].reshape(-1, 2), axis=1), cells[:, 4:].ravel())
     _check_connected(np.repeat(np.arange(len(cells)), 4), which.ravel())
     outside = facets[first[cells_of == 1]]
     _check_closed(outside)
@@ -120,11 +111,16 @@ def _check_shared(cells_of: NDArray) -> None:
         )
 
 
-def _check_middles(cells: NDArray) -> None:
-    """Check that cells that share an edge share its middle node."""
-    ends = np.sort(cells[:, EDGES].reshape(-1, 2), axis=1)
+def check_middles(ends: NDArray, middles: NDArray) -> None:
+    """Check that edges with the same ``ends`` (n, 2), in order, have the same middle node (n,).
+
+    Raises
+    ------
+    MeshError
+        When one has two.
+    """
     edges = np.unique(ends, axis=0)
-    with_middle = np.unique(np.column_stack([ends, cells[:, 4:].ravel()]), axis=0)
+    with_middle = np.unique(np.column_stack([ends, middles]), axis=0)
     if torn := len(with_middle) - len(edges):
         raise MeshError(f"{torn} edges have two middle nodes: merge the coincident nodes")
 

@@ -132,10 +132,10 @@ def as_meshed(blade, file, root="ROOT", tip="TIP", **keys):
     return check_settings(Blade, values, "test")
 
 
-def write_cdb(path, points, cells, facets, materials=(), nodes=None):
+def write_cdb(path, points, cells, facets, materials=(), nodes=None, kind=187):
     """As CDWRITE does: SOLID187 in blocks, node components; numbers of nodes have gaps."""
     number = np.arange(len(points)) * 2 + 5
-    lines = ["/COM,ANSYS RELEASE 2024 R2", "/PREP7", "ET,1,187", *materials]
+    lines = ["/COM,ANSYS RELEASE 2024 R2", "/PREP7", f"ET,1,{kind}", *materials]
     lines += [f"NBLOCK,6,SOLID,{number[-1]:>9},{nodes or len(points):>9}", "(3i9,6e21.13e3)"]
     lines += [
         f"{n:9d}{0:9d}{0:9d}" + "".join(f"{x:21.13E}" for x in point)

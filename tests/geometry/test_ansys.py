@@ -9,13 +9,14 @@ import pyvista
 from mapdl_archive import Archive, save_as_archive
 from refused import refused
 
-from geometry.ansys import COLLAPSED, read_archive
+from geometry.ansys import read_archive
 from geometry.blade import Blade, Material
 from geometry.file_mesh import FileMaterial
 from geometry.mesh import build_mesh
 from geometry.project import ROOT, MeshError, MeshWarning
 
 BLADES = ROOT / "workflow/blades"
+SOLID = {8: 185, 20: 186}  # by the number of nodes
 
 TITANIUM = [  # in N and mm, as CDWRITE writes them
     "MPTEMP,R5.0, 1, 1,  0.00000000    ,",
@@ -59,7 +60,7 @@ def test_archive_of_another_writer(parts, tmp_path):
     np.testing.assert_array_equal(np.sort(mesh.node_groups["TIP"]), np.unique(parts.facets["tip"]))
 
 
-@pytest.mark.parametrize("count", COLLAPSED)
+@pytest.mark.parametrize("count", [8, 20])
 def test_bricks_collapsed_to_tetrahedra(count, tmp_path):
     """SOLID185 and SOLID186 with I J K K M M M M, as the grid of mapdl-archive has them."""
     points = np.random.default_rng(0).random((10, 3))
@@ -67,13 +68,30 @@ def test_bricks_collapsed_to_tetrahedra(count, tmp_path):
     corners = [i, j, k, k, m, m, m, m]
     middles = [ij, jk, k, ki, m, m, m, m, im, jm, km, km]
     path = tmp_path / "brick.cdb"
-    exports.write_cdb(path, points, np.array([(corners + middles)[:count]]), {})
-    kind = {8: 185, 20: 186}[count]
-    path.write_text(path.read_text().replace("ET,1,187", f"ET,1,{kind}"))
+    exports.write_cdb(path, points, np.array([(corners + middles)[:count]]), {}, kind=SOLID[count])
     mesh = read_archive(path)
     grid = Archive(path).grid
-    assert mesh.cells.shape[1] == (4 if count == 8 else 10)
-    np.testing.assert_array_equal(mesh.cells, grid.cells_dict[grid.celltypes[0]])
+    (expected,) = grid.cells_dict.values()
+    np.testing.assert_array_equal(mesh.cells[:, : expected.shape[1]], expected)
+    assert mesh.first_order == (count == 8) and not mesh.made
+
+
+@pytest.mark.parametrize("kind", [45, 185, 95, 186])
+def test_bricks_of_old_and_new_types_are_read(kind, tmp_path):
+    points = np.random.default_rng(0).random((20, 3))
+    exports.write_cdb(tmp_path / "a.cdb", points, np.arange(20)[None], {}, kind=kind)
+    if kind in (45, 185):
+        exports.write_cdb(tmp_path / "a.cdb", points, np.arange(8)[None], {}, kind=kind)
+    mesh = read_archive(tmp_path / "a.cdb")
+    assert mesh.made.startswith("1 hexahedron on") and mesh.first_order == (kind in (45, 185))
+
+
+def test_a_brick_collapsed_in_another_way_is_refused(tmp_path):
+    exports.write_cdb(
+        tmp_path / "a.cdb", np.eye(8, 3), np.array([[0, 0, 2, 3, 4, 4, 6, 7]]), {}, kind=185
+    )
+    error = refused(MeshError, read_archive, tmp_path / "a.cdb")
+    assert "holds 1 cells of another kind" in error.text
 
 
 def test_faces_of_an_element_component(parts, archive):
@@ -116,7 +134,7 @@ FAULTS = {
     "holds 2 NBLOCK": {
         "change": lambda text: text.replace("FINISH", "NBLOCK,6,SOLID,1,1\n(3i9,6e21.13e3)")
     },
-    "holds 768 hexahedron: only tetrahedra": {
+    "768 of 768 cells lack middle nodes": {
         "change": lambda text: text.replace("ET,1,187", "ET,1,186")
     },
 }
@@ -130,7 +148,9 @@ def test_damaged_archives_are_refused(fault, archive):
 
 def test_cells_of_four_nodes(parts, tmp_path):
     exports.write_cdb(tmp_path / "blade.cdb", parts.points, parts.cells[:, :4], parts.facets)
-    np.testing.assert_array_equal(read_archive(tmp_path / "blade.cdb").cells, parts.cells[:, :4])
+    mesh = read_archive(tmp_path / "blade.cdb")
+    np.testing.assert_array_equal(mesh.cells[:, :4], parts.cells[:, :4])
+    assert mesh.first_order
 
 
 def test_cell_without_a_middle_node_is_refused(parts, archive):

@@ -318,14 +318,17 @@ def test_two_blades(parts, refusal):
     assert numbers(error)[:3] == [2, len(parts.cells), len(lower)]
 
 
-def test_other_cells_are_named_and_counted(parts, refusal, tmp_path):
-    hexahedra = "*ELEMENT, TYPE=C3D8R\n" + "\n".join(
+def test_other_cells_are_named_and_counted(parts, refusal):
+    bricks = "*ELEMENT, TYPE=SC8R\n" + "\n".join(
         ", ".join(map(str, [50_000 + i, *range(1, 9)])) for i in range(3)
     )
-    wedge = "*ELEMENT, TYPE=C3D6\n60000, 1, 2, 3, 4, 5, 6"
-    assert "1 C3D6, 3 C3D8R" in refusal("blade.inp", deck(parts, hexahedra, wedge)).text
-    meshio.Mesh(parts.points, [("hexahedron", [range(8)])]).write(tmp_path / "b.vtu")
-    assert "1 hexahedron" in refusal("b.vtu").text
+    assert "holds elements SC8R: read are" in refusal("blade.inp", deck(parts, bricks)).text
+
+
+def test_cells_of_third_order_are_counted(refusal, tmp_path):
+    cells = [("tetra20", [range(20)]), ("tetra", [range(4)])]
+    meshio.Mesh(np.eye(20, 3), cells).write(tmp_path / "b.msh", file_format="gmsh22", binary=False)
+    assert "holds 1 tetra20: read are" in refusal("b.msh").text
 
 
 @pytest.mark.parametrize(
@@ -336,7 +339,8 @@ def test_other_cells_are_named_and_counted(parts, refusal, tmp_path):
         ("*PART, NAME=a\n*PART, NAME=b", None, "several parts"),
         ("*INSTANCE, NAME=a, PART=b\n0., 0., 1.", None, "moved instance"),
         ("*ELEMENT, TYPE=SC8R\n1,2", 0, "SC8R"),
-        ("*ELEMENT, TYPE=C3D4\n70000, 1, 2, 3, 5", None, "mixes 1 four-node"),
+        ("*ELEMENT, TYPE=C3D4\n70000, 1, 2, 3, 5", None, "768 C3D10, 1 C3D4: export one order"),
+        ("*ELEMENT, TYPE=C3D27\n70000, 1, 2, 3, 5", 1, "has 4 of the 27 nodes"),
         ("*ELEMENT, TYPE=C3D4\n70000, 1, 2, 3", 1, "70000 has 3 of the 4 nodes"),
         ("*ELEMENT, TYPE=C3D4\n70000, 1, 2, 3, 4, 5", 1, "70000 has more than the 4 nodes"),
         ("*ELEMENT, TYPE=C3D4\n70000, 1, 2, 3, 99999", None, "99999"),
@@ -363,10 +367,10 @@ def test_deck_that_is_not_read(card, line, named, parts, refusal):
         ("blade.stl", "", ".stl: known are .inp, .cdb, .bdf, .nas, .fem, .msh, .vtu"),
         ("blade", "", "missing"),
         ("blade.inp", None, "no such file"),
-        ("blade.inp", "", "no tetrahedra"),
+        ("blade.inp", "", "no tetrahedra, bricks"),
         ("blade.bdf", "GRID", "ENDDATA"),
         ("blade.msh", "a", "$Elements"),
-        ("blade.msh", "*NODE\n", ".inp"),
+        ("blade.msh", "*NODE\n", "no tetrahedra, bricks"),
         ("blade.vtu", "<a", ".vtu"),
     ],
 )
@@ -409,7 +413,7 @@ def test_deck_without_its_last_elements(parts, refusal):
     kept = parts.cells[np.sort(order[:-200])]
     lower = np.hypot(*parts.points[np.unique(kept), :2].T).min()
     error = refusal("b.inp", exports.write_inp, parts.points, kept, {}, root=lower + 9, tip=562.3)
-    assert "belong to no tetrahedron" in error.text
+    assert "belong to no solid cell" in error.text
 
 
 def test_a_reversed_tip_without_camber_is_not_detected(tmp_path, coarse_blade):

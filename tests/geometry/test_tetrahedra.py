@@ -5,7 +5,8 @@ from refused import refused
 
 from geometry.mesh_faces import outline_of
 from geometry.project import MeshError
-from geometry.tetrahedra import exterior, neighbours, outlines, raised
+from geometry.split import Block, split
+from geometry.tetrahedra import exterior, neighbours, outlines
 
 
 def six_node(corners):
@@ -75,7 +76,8 @@ def test_neighbours_share_an_edge():
 def test_a_surface_is_closed_and_outside():
     """Every edge of the outer triangles belongs to two of them; two tetrahedra share a face."""
     points = np.array([[0, 0, -1], [0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], dtype=float)
-    triangles = exterior(raised(points, np.array([[0, 1, 2, 3], [1, 2, 3, 4]]))[1])[:, :3]
+    cells = Block(np.array([[0, 1, 2, 3], [1, 2, 3, 4]]), np.arange(2))
+    triangles = exterior(split(points, [cells]).cells)[:, :3]
     assert len(triangles) == 6 and [1, 2, 3] not in np.sort(triangles).tolist()
     edges = np.sort(
         np.concatenate([triangles[:, pair] for pair in ([0, 1], [1, 2], [0, 2])]), axis=1

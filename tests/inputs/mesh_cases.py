@@ -12,6 +12,7 @@ from typing import Any
 import exports
 import numpy as np
 from blades import given as changed, volume as exact_volume
+from bricks import Bricks
 from case import Case, Content
 from changes import cell, contents, cut, line, other_line
 from hypothesis import strategies as st
@@ -21,6 +22,7 @@ from geometry.blade import Blade
 from geometry.mesh import build_mesh
 from geometry.profile import profile_at
 from geometry.project import MeshWarning
+from geometry.split import KINDS
 
 SAME = 1e-6  # relative, of volumes of one mesh: files hold some nine digits
 CLOSE = 5e-3  # of a mesh against the closed form of its blade, as coarse as it is
@@ -42,12 +44,16 @@ def files() -> dict[str, str]:
         parts = exports.parts(mesh)
         for name, (write, *_) in FORMATS.items():
             write(mesh.with_name(name), *parts)
-        texts = {name: mesh.with_name(name).read_bytes() for name in FORMATS}
+        bricks = Bricks(coarse().sections, 4, 1, 8).parts("hexahedron")
+        exports.write_inp(mesh.with_name(BRICKS), *bricks, kind="C3D20")
+        texts = {name: mesh.with_name(name).read_bytes() for name in (*FORMATS, BRICKS)}
         return {name: text.decode(errors="surrogateescape") for name, text in texts.items()}
 
 
 FORMATS = {f"b{suffix}": exports.FORMATS[suffix] for suffix in (".inp", ".bdf", ".vtu", ".msh")}
 OTHERS = ("b.bdf", "b.vtu", "b.msh")  # which numpy_volume does not read
+BRICKS = "bricks.inp"
+DECKS = ("b.inp", BRICKS)
 
 
 @cache
@@ -57,9 +63,9 @@ def volume() -> float:
 
 
 def numpy_volume(deck: str) -> float:
-    """Volume, m3, of the ten-node cells of a deck in our own format, read line by line.
+    """Volume, m3, of the cells of a deck in our own format, read line by line.
 
-    The determinant of a cell is a polynomial of degree 3: the rule is exact.
+    Of ten or twenty nodes. The determinant of a cell is a polynomial: the rules are exact.
     """
     nodes, cells, of = {}, {}, None
     for row in deck.splitlines():
@@ -69,15 +75,40 @@ def numpy_volume(deck: str) -> float:
         elif of is not None and row.strip():
             number, *values = row.upper().replace("D", "E").split(",")
             of.setdefault(int(number), [float(value) for value in values])
-    points = 1e-3 * np.array([nodes[int(i)] for cell in cells.values() for i in cell])
-    return exact_volume(points, np.arange(len(points)).reshape(-1, 10))
+    points = 1e-3 * np.array([[nodes[int(i)] for i in cell] for cell in cells.values()])
+    if points.shape[1] == 20:
+        return volume_of_bricks(points)
+    return exact_volume(points.reshape(-1, 3), np.arange(points[..., 0].size).reshape(-1, 10))
+
+
+def volume_of_bricks(points: np.ndarray) -> float:
+    """Volume of bricks (m, 20, 3), by their own map."""
+    at, weights = np.polynomial.legendre.leggauss(4)
+    corners = np.array(list(product((-1, 1), repeat=3)))[[0, 4, 6, 2, 1, 5, 7, 3]]
+    own = np.vstack([corners, corners[KINDS["hexahedron"].edges].mean(axis=1)])
+
+    def shapes(x: np.ndarray) -> np.ndarray:
+        along = 1 + own * x  # (20, 3)
+        of_corners = along.prod(axis=1) * ((own * x).sum(axis=1) - 2) / 8
+        of_middles = np.where(own == 0, 1 - x**2, along).prod(axis=1) / 4
+        return np.where((own == 0).any(axis=1), of_middles, of_corners)
+
+    total, small = 0.0, 1e-5
+    for place, weight in zip(product(at, repeat=3), product(weights, repeat=3), strict=True):
+        x = np.array(place)
+        gradient = [
+            (shapes(x + small * axis) - shapes(x - small * axis)) / (2 * small)
+            for axis in np.eye(3)
+        ]
+        total += np.prod(weight) * np.linalg.det(np.array(gradient) @ points).sum()
+    return float(total)
 
 
 def build(file: str, root: Any = None, **keys: Any) -> Callable[[Path], Any]:
     """Mesh of a blade from a file in a folder."""
 
     def read(folder: Path) -> Any:
-        groups = (root, 562.3) if root else FORMATS[file][1:]
+        groups = (root, 562.3) if root else FORMATS["b.inp" if file in DECKS else file][1:]
         blade = exports.as_meshed(coarse(), file, *groups, **keys)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", MeshWarning)  # a fault that is told is not silent
@@ -109,21 +140,26 @@ def _case(
 ) -> Case:
     """A mesh whose file has ``text``, or ``data`` that say the same."""
     data = text.encode(errors="surrogateescape") if data is None else data
-    expected = (lambda: numpy_volume(text)) if file == "b.inp" else volume
-    return Case("mesh", change, {file: data}, build(file, **keys), must, of_volume(expected))
+    expected = (lambda: numpy_volume(text)) if file in DECKS else volume
+    if file == BRICKS:
+        keys["interface"] = {"patches": 4}
+    close = CLOSE if file == BRICKS else SAME
+    fault = of_volume(expected, close)
+    return Case("mesh", change, {file: data}, build(file, **keys), must, fault)
 
 
-def rows(of: str) -> list[int]:
-    """Lines of the deck below a card."""
-    lines = files()["b.inp"].split("\n")
+def rows(text: str, of: str) -> list[int]:
+    """Lines of a deck below a card."""
+    lines = text.split("\n")
     cards = [i for i, line in enumerate(lines) if line.startswith("*")] + [len(lines) - 1]
     first = next(i for i in cards if lines[i].startswith(of))
     return list(range(first + 1, cards[cards.index(first) + 1]))
 
 
-def decks() -> Cases:
+def decks(file: str) -> Cases:
     """A deck: lines, numbers and nodes lost, changed or there twice."""
-    text, nodes, elements = files()["b.inp"], rows("*NODE"), rows("*ELEMENT")
+    text = files()[file]
+    nodes, elements = rows(text, "*NODE"), rows(text, "*ELEMENT")
     cards = [i for i, line in enumerate(text.split("\n")) if line.startswith("*")]
     odd = ["", "x", "1_0", "nan", "1.0D+01", "-1", "0", "999999", "1", "٣", "1e400", "1" * 5000]
     names = ["", "*", "*NODE", "*ELEMENT", "*NSET", "*ELEMENT, TYPE=C3D4", "*ELSET, ELSET=x"]
@@ -132,7 +168,7 @@ def decks() -> Cases:
         changed += [cell(text, of, odd, st.nothing()), line(text, of, "lost", "twice", "cut")]
 
     def case(change: tuple[str, str]) -> Case:
-        return _case(*change, "accept" if change[0] == "line twice" else "either")
+        return _case(*change, "accept" if change[0] == "line twice" else "either", file)
 
     @st.composite
     def moved(draw: st.DrawFn) -> Case:
@@ -142,15 +178,16 @@ def decks() -> Cases:
         axis, sign = draw(st.integers(0, 2)), draw(st.sampled_from((-1, 1)))
         place[axis] = f"{float(place[axis]) + sign * far!r}"
         lines[i] = ",".join([number, *place])
-        return _case("node moved", "\n".join(lines), "refuse" if far >= 50 else "either")
+        return _case("node moved", "\n".join(lines), "refuse" if far >= 50 else "either", file)
 
     def short(n: int) -> Case:
         """Without its end; where all numbers are there it is whole."""
-        return _case("cut short", text[:n], "accept" if n >= len(text.rstrip(",\n")) else "refuse")
+        whole = n >= len(text.rstrip(",\n"))
+        return _case("cut short", text[:n], "accept" if whole else "refuse", file)
 
     def shorter(n: int) -> Case:
         """Within the elements: the sets are lost, and the root is by its radius."""
-        return _case("cut short", text[:n], root=422.5)
+        return _case("cut short", text[:n], file=file, root=422.5)
 
     within = st.integers(text.index("*ELEMENT"), text.index("*NSET, NSET=root") - 1)
     cuts = st.integers(0, len(text) - 2).map(short) | within.map(shorter)
@@ -160,12 +197,12 @@ def decks() -> Cases:
         lines, i = text.split("\n"), draw(st.sampled_from(elements))
         cells = lines[i].split(", ")
         others = {node for j in elements if j != i for node in lines[j].split(", ")[1:]}
-        at = draw(st.sampled_from([k for k in range(1, 11) if cells[k] in others]))
+        at = draw(st.sampled_from([k for k in range(1, len(cells)) if cells[k] in others]))
         place = lines[nodes[int(cells[at]) - 1]].split(",")[1:]
         cells[at] = "99999"
         lines[i] = ", ".join(cells)
         lines.insert(nodes[-1] + 1, ",".join(["99999", *place]))
-        return _case("node not merged", "\n".join(lines), "refuse")
+        return _case("node not merged", "\n".join(lines), "refuse", file)
 
     return st.one_of(*changed).map(case) | moved() | cuts | unmerged()
 
@@ -184,7 +221,7 @@ def formats() -> Cases:
         _case("small letters", deck.lower(), "accept"),
         _case("Fortran", exports.fortran(deck), "accept"),
         _case("no ENDDATA", bulk.replace("ENDDATA", ""), "refuse", "b.bdf"),
-        _case("syntax of Abaqus", deck, "refuse", "b.msh"),
+        _case("syntax of Abaqus", deck, "accept", "b.msh"),
         _case("another format", files()["b.msh"], "refuse"),
         _case("unchanged", deck, "accept"),
     ]
@@ -283,4 +320,4 @@ def closed_form(sections: dict[str, Any]) -> float:
 
 def mesh_cases() -> Cases:
     """All of these."""
-    return st.one_of(decks(), decks(), formats(), cad(), built())
+    return st.one_of(decks("b.inp"), decks("b.inp"), decks(BRICKS), formats(), cad(), built())

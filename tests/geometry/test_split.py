@@ -1,0 +1,314 @@
+"""Bricks, wedges, pyramids as tetrahedra: volumes, neighbours that agree, files of each format."""
+
+from itertools import pairwise
+
+import exports
+import gmsh
+import meshio
+import numpy as np
+import pytest
+from bricks import ENDS, Bricks
+from meshio.gmsh.common import _meshio_to_gmsh_order
+from refused import refused
+
+from geometry.generate import volume
+from geometry.mesh_file import read_mesh_file
+from geometry.project import MeshError, MeshWarning
+from geometry.shape import CELL, jacobian_ratios, session
+from geometry.split import KINDS, NODES, TURNED, Block, split, triangles_of
+from geometry.tetrahedra import GMSH, exterior
+
+# corners of cells of edge 1, and their volumes
+CUBE = np.array(
+    [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)], float
+)
+CELLS = {
+    "tetra": (CUBE[[0, 1, 3, 4]], 1 / 6, 1),
+    "pyramid": (CUBE[:5], 1 / 3, 2),
+    "wedge": (CUBE[[0, 1, 3, 4, 5, 7]], 1 / 2, 3),
+    "hexahedron": (CUBE, 1.0, 6),
+}
+
+
+def measured(found):
+    """Volume of ten-node cells, and their smallest Jacobian ratio, by gmsh."""
+    with session("split"):
+        gmsh.model.addDiscreteEntity(3, 1)
+        nodes = np.arange(len(found.points)) + 1
+        gmsh.model.mesh.addNodes(3, 1, nodes, found.points.ravel())
+        cells = np.arange(len(found.cells)) + 1
+        gmsh.model.mesh.addElementsByType(1, CELL, cells, (found.cells[:, GMSH] + 1).ravel())
+        return volume(), jacobian_ratios().min()
+
+
+def numbered(points, seed):
+    """Points in a random order, and the nodes of one cell in them."""
+    order = np.random.default_rng(seed).permutation(len(points))
+    mixed = np.empty_like(points)
+    mixed[order] = points
+    return mixed, Block(order[None], np.array([7]))
+
+
+@pytest.mark.parametrize("kind", CELLS)
+def test_a_cell_is_filled_whichever_of_its_nodes_is_first(kind):
+    points, whole, count = CELLS[kind]
+    for seed in range(20):
+        found = split(*(of if i == 0 else [of] for i, of in enumerate(numbered(points, seed))))
+        size, ratio = measured(found)
+        assert len(found.cells) == count and set(found.numbers) == {7}
+        assert size == pytest.approx(whole, rel=1e-10) and ratio == pytest.approx(1)
+
+
+def test_neighbours_agree_on_the_diagonals_between_them():
+    """Bricks, numbered at random: the outside is closed, and has two triangles a side."""
+    n = 3
+    steps = np.arange(n + 1.0)
+    points = np.stack(np.meshgrid(steps, steps, steps, indexing="ij"), axis=-1).reshape(-1, 3)
+    order = np.random.default_rng(5).permutation(len(points))
+    row = {tuple(point): i for i, point in zip(order, points, strict=True)}
+    corners = [[row[tuple(at + by)] for by in CUBE] for at in points if (at < n).all()]
+    mixed = np.empty_like(points)
+    mixed[order] = points
+    found = split(mixed, [Block(np.array(corners), np.arange(n**3))])
+    assert len(exterior(found.cells)) == 2 * 6 * n**2
+    assert measured(found)[0] == pytest.approx(n**3, rel=1e-10)
+    # nodes, edges, diagonals of squares and of cubes
+    cubes, squares, edges = n**3, 3 * n**2 * (n + 1), 3 * n * (n + 1) ** 2
+    assert len(found.points) == len(points) + edges + squares + cubes
+
+
+def test_a_warped_brick_of_first_order_keeps_its_volume():
+    """Its sides are ruled surfaces, which six-node triangles follow exactly."""
+    rng = np.random.default_rng(2)
+    nodes, weights = np.polynomial.legendre.leggauss(3)
+    for seed in range(20):
+        points = CUBE + rng.uniform(-0.15, 0.15, CUBE.shape)
+        mapped = 0.0
+        for u, a in zip((nodes + 1) / 2, weights / 2, strict=True):
+            for v, b in zip((nodes + 1) / 2, weights / 2, strict=True):
+                for w, c in zip((nodes + 1) / 2, weights / 2, strict=True):
+                    shares = [np.where(CUBE[:, i] == 1, x, 1 - x) for i, x in enumerate((u, v, w))]
+                    signs = np.where(CUBE == 1, 1, -1).T
+                    gradient = [
+                        (signs[i] * shares[i - 2] * shares[i - 1]) @ points for i in range(3)
+                    ]
+                    mapped += a * b * c * np.linalg.det(gradient)
+        mixed, block = numbered(points, seed)
+        size, _ = measured(split(mixed, [block]))
+        assert size == pytest.approx(mapped, rel=1e-10)
+
+
+@pytest.mark.parametrize(("kind", "cells"), [("hexahedron", 6), ("wedge", 3)])
+def test_the_volume_of_curved_cells_converges(coarse_blade, kind, cells):
+    """Sides of eight nodes have cubic terms that triangles do not carry."""
+    sizes = []
+    for n in (1, 2, 4):
+        bricks = Bricks(coarse_blade.sections, 3 * n, 1, 4 * n)
+        nodes = bricks.cells(kind)
+        found = split(1e-3 * bricks.points, [Block(nodes, np.arange(len(nodes)))])
+        size, ratio = measured(found)
+        assert len(found.cells) == cells * len(nodes) and ratio > 0.1
+        sizes.append(size)
+    first, last = (abs(b / a - 1) for a, b in pairwise(sizes))
+    assert last < 1e-3 and last < first / 4
+
+
+def test_a_quadrilateral_on_two_triangles_is_refused_with_its_cells():
+    points = np.vstack([CUBE, [(0.5, 0.5, 2)]])
+    brick = Block(np.arange(8)[None], np.array([1]))
+    above = Block(np.array([[4, 5, 6, 8], [4, 6, 7, 8]]), np.array([2, 3]))
+    error = refused(MeshError, split, points, [brick, above])
+    assert "cell 1 meets a triangle of cell 2" in error.text
+    pyramid = Block(np.array([[4, 5, 6, 7, 8]]), np.array([2]))
+    assert measured(split(points, [brick, pyramid]))[0] == pytest.approx(1 + 1 / 3)
+
+
+def test_an_edge_with_two_middle_nodes_is_refused():
+    points = np.vstack([CUBE, CUBE[KINDS["hexahedron"].edges].mean(axis=1), CUBE[:1]])
+    torn = Block(np.arange(20)[None].repeat(2, axis=0), np.arange(2))
+    torn.nodes[1, 8] = 20
+    assert "1 edges have two" in refused(MeshError, split, points, [torn]).text
+
+
+def test_quadrilaterals_of_groups_are_cut_as_those_of_cells():
+    assert triangles_of([(5, 2, 7, 3), (1, 0, 4)]).tolist() == [[1, 0, 4], [2, 7, 3], [2, 3, 5]]
+
+
+# How a blade of bricks or wedges is written: kind by format, and the names of root and tip
+ABAQUS = {8: "C3D8", 20: "C3D20R", 6: "C3D6", 15: "C3D15"}
+NASTRAN = {8: "CHEXA", 20: "CHEXA", 6: "CPENTA", 15: "CPENTA"}
+MESHIO = {8: "hexahedron", 20: "hexahedron20", 6: "wedge", 15: "wedge15"}
+ANSYS = {  # of a brick: I J K K M N O O for a wedge
+    8: [*range(8)],
+    20: [*range(20)],
+    6: [0, 1, 2, 2, 3, 4, 5, 5],
+    15: [0, 1, 2, 2, 3, 4, 5, 5, 6, 7, 2, 8, 9, 10, 5, 11, 12, 13, 14, 14],
+}
+
+
+def write_inp(path, points, cells, faces):
+    nodes = {name: np.unique(of) for name, of in faces.items()}
+    exports.write_inp(path, points, cells, nodes, kind=ABAQUS[cells.shape[1]])
+
+
+def write_cgx(path, points, cells, faces):
+    """As cgx writes: a deck with the name of a mesh of Gmsh, and sides of elements."""
+    deck = path.with_suffix(".inp")
+    exports.write_inp(deck, points, cells, {}, kind=ABAQUS[cells.shape[1]])
+    of_kind = KINDS[NODES[cells.shape[1]][0]]
+    sides = {
+        tuple(sorted(cell[list(face)])): f"{number}, S{side}"
+        for number, cell in enumerate(cells, 1)
+        for side, face in enumerate(of_kind.faces, 1)
+    }
+    lines = [
+        line
+        for name, of in faces.items()
+        for line in (f"*SURFACE, NAME={name}", *(sides[tuple(sorted(face))] for face in of))
+    ]
+    path.write_text(deck.read_text() + "\n".join(lines) + "\n")
+
+
+def write_bdf(path, points, cells, faces):
+    """Free fields; middle nodes of upright edges stand before those of upper ones."""
+    lines = ["BEGIN BULK"]
+    lines += [f"GRID,{i},,{x:.12f},{y:.12f},{z:.12f}" for i, (x, y, z) in enumerate(points, 1)]
+    corners = KINDS[NODES[cells.shape[1]][0]].corners
+    own = cells
+    if cells.shape[1] > corners:
+        around = corners // 2
+        lower, upper = corners + around, corners + 2 * around
+        own = np.hstack([cells[:, :lower], cells[:, upper:], cells[:, lower:upper]])
+    elements = [(NASTRAN[cells.shape[1]], 1, cell) for cell in own]
+    kinds = {3: "CTRIA3", 4: "CQUAD4"}
+    elements += [(kinds[len(f)], i, f) for i, of in enumerate(faces.values(), 2) for f in of]
+    for number, (kind, group, nodes) in enumerate(elements, 1):
+        fields = [kind, number, group, *(np.array(nodes) + 1)]
+        rows = [fields[:9], *(["", *fields[i : i + 8]] for i in range(9, len(fields), 8))]
+        lines += [",".join(map(str, row)) for row in rows]
+    path.write_text("\n".join([*lines, "ENDDATA", ""]))
+
+
+def write_cdb(path, points, cells, faces):
+    nodes = {name: np.unique(of) for name, of in faces.items()}
+    order = ANSYS[cells.shape[1]]
+    exports.write_cdb(path, points, cells[:, order], nodes, kind={8: 185, 20: 186}[len(order)])
+
+
+def write_msh(path, points, cells, faces):
+    """Groups are triangles or quadrilaterals."""
+    mesh = meshio.Mesh(
+        points,
+        [(MESHIO[cells.shape[1]], cells)]
+        + [({3: "triangle", 4: "quad"}[len(of[0])], np.array(of)) for of in faces.values()],
+        field_data={name: np.array([i, 2]) for i, name in enumerate(faces, 2)},
+    )
+    tags = [np.full(len(block), i) for i, block in enumerate(mesh.cells, 1)]
+    mesh.cell_data = {"gmsh:physical": tags, "gmsh:geometrical": tags}
+    mesh.write(path, file_format="gmsh22", binary=False)
+
+
+def write_vtu(path, points, cells, faces):
+    """Wedges as VTK's manual has them, the other end first; groups are values at nodes."""
+    if cells.shape[1] in (6, 15):
+        cells = cells[:, TURNED[: cells.shape[1]]]
+    at_nodes = {name: np.zeros(len(points), dtype=int) for name in faces}
+    for name, of in faces.items():
+        at_nodes[name][np.unique(of)] = 1
+    meshio.Mesh(points, [(MESHIO[cells.shape[1]], cells)], point_data=at_nodes).write(path)
+
+
+FORMATS = {
+    "b.inp": (write_inp, "ROOT", "TIP"),
+    "b.msh of cgx": (write_cgx, "ROOT", "TIP"),
+    "b.bdf": (write_bdf, "nastran:ref=2", "nastran:ref=3"),
+    "b.cdb": (write_cdb, "ROOT", "TIP"),
+    "b.msh": (write_msh, "root", "tip"),
+    "b.vtu": (write_vtu, "root", "tip"),
+}
+
+
+@pytest.fixture(scope="module")
+def bricks(coarse_blade):
+    return Bricks(coarse_blade.sections, 4, 1, 8)
+
+
+@pytest.mark.parametrize("second_order", [True, False])
+@pytest.mark.parametrize("kind", ["hexahedron", "wedge"])
+@pytest.mark.parametrize("name", FORMATS)
+def test_a_blade_of_each_format_is_the_same(name, kind, second_order, bricks, build, capsys):
+    write, root, tip = FORMATS[name]
+    cells, faces = bricks.cells(kind, second_order), bricks.faces(kind, second_order)
+    nodes = write in (write_inp, write_cdb, write_vtu)  # groups of nodes, with the middle ones
+    groups = {n: bricks.on(share, cells) if nodes else faces[n] for n, share in ENDS.items()}
+    args = name.split()[0], write, bricks.points, cells, groups
+    keys = {"root": root, "tip": tip, "interface": {"patches": 4}}
+    if second_order:
+        summary, found = build(*args, **keys)
+    else:
+        with pytest.warns(MeshWarning, match="first order"):
+            summary, found = build(*args, **keys)
+    expected = split(1e-3 * bricks.points, [Block(cells, np.arange(len(cells)))])
+    assert summary.volume == pytest.approx(measured(expected)[0], rel=1e-6)
+    facets = len(faces["tip"]) * (2 if kind == "hexahedron" else 1)
+    assert [len(found.facets[of]) for of in ENDS] == [facets, facets]
+    told = f"split into {len(expected.cells)} ten-node tetrahedra on {summary.nodes} nodes"
+    assert told in capsys.readouterr().out
+
+
+def test_a_twisted_brick_is_refused_by_its_number(bricks, refusal):
+    """Two nodes of one side exchanged."""
+    points, cells = bricks.points.copy(), bricks.cells("hexahedron", False)
+    a, b = cells[5, [4, 6]]
+    points[[a, b]] = points[[b, a]]
+    with pytest.warns(MeshWarning, match="first order"):
+        error = refusal("b.inp", write_inp, points, cells, bricks.faces("hexahedron", False))
+    assert "cell 6 of the file" in error.text and "inside out" in error.text
+
+
+def test_complete_cells_of_gmsh_are_read(tmp_path):
+    """27, 18 and 14 nodes: those within faces and cells are left out."""
+    gmsh.initialize(interruptible=False)
+    try:
+        gmsh.option.setNumber("General.Terminal", 0)
+        gmsh.model.occ.addBox(0, 0, 0, 1, 1, 1)
+        gmsh.model.occ.synchronize()
+        for curve in gmsh.model.getEntities(1):
+            gmsh.model.mesh.setTransfiniteCurve(curve[1], 3)
+        for surface in gmsh.model.getEntities(2):
+            gmsh.model.mesh.setTransfiniteSurface(surface[1])
+            gmsh.model.mesh.setRecombine(*surface)
+        gmsh.model.mesh.setTransfiniteVolume(1)
+        gmsh.model.mesh.generate(3)
+        gmsh.model.mesh.setOrder(2)
+        gmsh.write(str(tmp_path / "box.msh"))
+    finally:
+        gmsh.finalize()
+    mesh = read_mesh_file(tmp_path / "box.msh").without_unused()
+    assert mesh.made.startswith("8 hexahedron27 on")
+    assert measured(mesh)[0] == pytest.approx(1, rel=1e-10)
+
+
+@pytest.mark.parametrize(("kind", "nodes"), [("wedge18", 15), ("pyramid14", 13)])
+def test_complete_wedges_and_pyramids_have_gmshs_order(kind, nodes, tmp_path):
+    """A single cell, its middle nodes moved outward: each lies near the middle of its edge."""
+    of = KINDS[kind.rstrip("0123456789")]
+    corners = CELLS[kind.rstrip("0123456789")][0]
+    middles = corners[of.edges].mean(axis=1)
+    known = _meshio_to_gmsh_order({15: "wedge15", 13: "pyramid13"}[nodes], np.arange(nodes)[None])[
+        0
+    ]
+    inner = np.full((int(kind[-2:]) - nodes, 3), 0.3)
+    points = np.vstack([corners, middles, inner])
+    cell = np.append(known, np.arange(nodes, len(points)))
+    text = "\n".join(
+        ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$Nodes", str(len(points))]
+        + [f"{i} {x} {y} {z}" for i, (x, y, z) in enumerate(points, 1)]
+        + ["$EndNodes", "$Elements", "1"]
+        + [" ".join(map(str, [1, {15: 13, 13: 14}[nodes], 2, 1, 1, *(cell + 1)]))]
+        + ["$EndElements", ""]
+    )
+    (tmp_path / "one.msh").write_text(text)
+    mesh = read_mesh_file(tmp_path / "one.msh")
+    size, ratio = measured(mesh.without_unused())
+    assert size == pytest.approx(CELLS[kind.rstrip("0123456789")][1]) and ratio == pytest.approx(1)
