@@ -79,6 +79,8 @@ def make_project(folder: Path) -> Project:
     project = Project(folder)
     project.edit("workflow/blades/reference.yaml", _coarsen)
     project.edit("workflow/scenes/paper.yaml", _shorten)
+    for coating in ("e1", "e10"):
+        project.edit(f"workflow/scenes/paper-{coating}.yaml", _close_in_no_further)
     project.edit("workflow/scenes/peak-e1.yaml", _at_one_speed)
     project.edit("workflow/scenes/one-percent.yaml", _at_speeds_of_base)
     project.edit("workflow/config.yaml", lambda config: config.update(blocks=2))
@@ -90,9 +92,13 @@ def _coarsen(blade):
     blade["interface"]["patches"] = 8
 
 
+def _close_in_no_further(scene):
+    scene["peaks"]["within_over_f1"] = 0.02  # as near as the speeds are
+
+
 def _shorten(scene):
     scene["speeds"] = {"over_f1": SPEEDS}
-    scene["peaks"]["within_over_f1"] = 0.02  # as near as they are
+    _close_in_no_further(scene)
     scene["rounds"] = 4
     scene["casing"]["ramp_rounds"] = 1
     scene["record"]["spectrum_rounds"] = 2
