@@ -31,7 +31,8 @@ COLLAPSED = {
     8: ("hexahedron", [*range(20)]),
 }
 TEN = "tetra", [*range(10)]
-OTHER, MOST_NODES, ABSENT = "cells of another kind", 20, -1
+OTHER, MOST_NODES = "cells of another kind", 20
+ABSENT = -1  # row of a middle node that is not there
 LABELS = {"EX": "young_modulus", "PRXY": "poisson_ratio", "NUXY": "poisson_ratio"}
 LABELS |= {"DENS": "density"}
 EXPORT = "export it anew with `CDWRITE,DB`"
@@ -60,9 +61,9 @@ def read_archive(path: Path) -> FileMesh:
     archive = Archive(path, parse_vtk=False)
     require_all("nodes", nodes, len(archive.nnum), EXPORT)
     require_all("elements", elements, len(archive.elem), EXPORT)
-    row = np.full(int(archive.nnum.max()) + 1, -1)
+    row = np.full(int(archive.nnum.max()) + 1, ABSENT)
     row[archive.nnum] = np.arange(len(archive.nnum))
-    row[0] = -1  # a middle node that is not there
+    row[0] = ABSENT
     solids, faces = _sorted(archive, row)
     return as_tetrahedra(
         np.asarray(archive.nodes, dtype=float),
