@@ -6,7 +6,7 @@ from geometry.blade import Sections
 from geometry.profile import Profile, profile_at
 from geometry.split import KINDS
 
-TURNS = 60  # of the fixed point for the plane of a place on a cylinder; a few are enough
+TURNS = 12  # of the fixed point for the plane of a place on a cylinder; eight are to round-off
 
 
 def place(sections: Sections, xi: float, eta: float, share: float) -> np.ndarray:
@@ -67,9 +67,11 @@ class Bricks:
         every = np.arange(len(self.points)).reshape(self.shape)
         return np.intersect1d(every[:, :, -share], cells)
 
-    def parts(self, kind: str) -> tuple[np.ndarray, np.ndarray, dict[str, np.ndarray]]:
-        """Points, mm, cells of second order, and nodes of root and tip; without other nodes."""
-        cells = self.cells(kind)
+    def parts(
+        self, kind: str, second_order: bool = True
+    ) -> tuple[np.ndarray, np.ndarray, dict[str, np.ndarray]]:
+        """Points, mm, cells, and nodes of root and tip; without other nodes."""
+        cells = self.cells(kind, second_order)
         used, own = np.unique(cells, return_inverse=True)
         groups = {name: np.searchsorted(used, self.on(i, cells)) for name, i in ENDS.items()}
         return self.points[used], own.reshape(cells.shape), groups
