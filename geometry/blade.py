@@ -288,6 +288,11 @@ class Blade(SettingsFile):
     idle_rpm: Annotated[float, Field(gt=0)] | None = Field(
         default=None, description="Idle speed, marked in figures and summary (rpm)"
     )
+    geometry_at_rpm: Annotated[float, Field(gt=0)] | None = Field(
+        default=None,
+        description="Speed at which the blade has the geometry given, as of a running blade (rpm); "
+        "its shape at rest is computed. Without it the geometry is that at rest",
+    )
     prestress: Literal["nonlinear", "linear"] = Field(
         default="nonlinear",
         description="Tangent at the nonlinear equilibrium, or geometric stiffness of one linear "
@@ -313,7 +318,8 @@ class Blade(SettingsFile):
 
     @checked
     def _operates_within_its_speeds(self) -> None:
-        for name, rpm in self.operating_rpm.items():
+        given = {"geometry_at": self.geometry_at_rpm or 0.0}
+        for name, rpm in (self.operating_rpm | given).items():
             if rpm / RPM > self.max_speed_rad_s:
                 raise SettingsError(
                     f"above max_speed_rad_s: {self.max_speed_rad_s:g}, which is "

@@ -120,6 +120,26 @@ def build_mesh(
     return summary
 
 
+def write_moved(mesh_path: Path, moved_path: str | Path, places: NDArray[np.float64]) -> None:
+    """Write the mesh in ``mesh_path`` with its nodes at ``places`` (n, 3), m, in the file's order.
+
+    Raises
+    ------
+    MeshError
+        When cells are inside out there.
+    geometry.project.errors.WriteError
+        When the file cannot be written.
+    """
+    with session("make the mesh anew"), whole(moved_path) as temporary:
+        gmsh.merge(str(mesh_path))
+        nodes, *_ = gmsh.model.mesh.getNodes()
+        for node, place in zip(np.sort(nodes), places, strict=True):
+            gmsh.model.mesh.setNode(node, place, [])
+        if not jacobian_ratios().min() > 0:
+            raise MeshError("cells are inside out at rest: make the elements smaller")
+        _written(temporary, moved_path)
+
+
 def _written(file: Path, mesh_path: str | Path) -> FileMesh:
     """Write the mesh to ``file``, and read it back: gmsh tells of no failure, as of a full disk."""
     gmsh.option.setNumber("Mesh.MshFileVersion", 4.1)

@@ -175,10 +175,10 @@ def _model(of: Subject, changed: Neighbour) -> Rom:
     with TemporaryDirectory() as folder:
         mesh = of.folder.parent / "blade.msh"
         if changed.remeshed:
-            from geometry.mesh import build_mesh
+            from fem.at_rest import build_mesh_at_rest
 
             mesh = Path(folder, "blade.msh")
-            build_mesh(blade, mesh, source)
+            build_mesh_at_rest(blade, mesh, source)
         fom = assembled(blade, name, mesh)
         return reduce(fom, blade.basis, of.scene.directions)[0]
 

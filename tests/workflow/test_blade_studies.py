@@ -157,18 +157,21 @@ REST = np.array([40.0, 200.0])
 OF_ROTOR = [
     made("nonlinear", [REST, 1.1 * REST, 1.4 * REST], group="prestress"),
     made("linear", [REST, 1.2 * REST, 1.5 * REST], group="prestress"),
+    made("running", [0.9 * REST, REST, 1.3 * REST], group="geometry"),
     made("0.8 instead of 1.2", [[39.6, 200.0]] * 3, group="cut", against="nonlinear"),
     made("2 instead of 1.2", [[40.8, 198.0]] * 3, group="cut", against="nonlinear"),
 ]
 
 
-def test_a_table_has_either_prestress_at_speed_and_one_row_at_rest():
-    assert prestress_table(OF_ROTOR).splitlines()[2:7] == [
+def test_a_table_has_either_prestress_at_speed_and_both_geometries_at_rest():
+    assert prestress_table(OF_ROTOR).splitlines()[2:9] == [
         "| at rest | 40.0 | 200.0 |",
+        "| at rest, geometry as it runs | 36.0 | 180.0 |",
         "| 50 rad/s, nonlinear | 44.0 | 220.0 |",
         "| 50 rad/s, linear | 48.0 | 240.0 |",
         "| 100 rad/s, nonlinear | 56.0 | 280.0 |",
         "| 100 rad/s, linear | 60.0 | 300.0 |",
+        "| 100 rad/s, nonlinear, geometry as it runs | 52.0 | 260.0 |",
     ]
 
 

@@ -354,6 +354,19 @@ def test_a_file_of_geometry_that_is_missing_is_refused_and_one_elsewhere_is_not(
 
 
 @pytest.mark.slow
+def test_a_running_geometry_is_brought_to_rest(tmp_path):
+    """By a job of its own: blades at rest do not wait for the finite elements."""
+    project = make_project(tmp_path)
+    assert project.planned("mesh")["build_mesh"] == 1
+    project.edit(REFERENCE, lambda blade: blade.update(geometry_at_rpm=5600))
+    planned = project.planned("mesh")
+    assert planned["build_mesh_at_rest"] == 1 and "build_mesh" not in planned
+    project.run("mesh")
+    log = (project.folder / "results/reference/logs/mesh.log").read_text()
+    assert "at rest: nodes moved by up to 0.3781 mm; at 5600 rpm" in log
+
+
+@pytest.mark.slow
 def test_a_speed_above_omega_m_fails_with_one_sentence(touched):
     edited(E1, speeds={"over_f1": [0.6]})(touched)
     output = touched.run(f"{BLADE}/paper-e1/sweep.nc", expect=1)

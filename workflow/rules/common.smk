@@ -163,6 +163,7 @@ BLADE_FILES = read_or_fail(yaml_file.names, "workflow/blades")
 FOREIGN = blades_with(GivenModel.key)  # of a reduced model made elsewhere
 WITH_MATRICES = blades_with(GivenMatrices.key)  # made elsewhere
 MESHED = [name for name in BLADE_FILES if name not in (*FOREIGN, *WITH_MATRICES)]
+AS_IT_RUNS = blades_with("geometry_at_rpm")  # whose shape at rest is computed
 SCENES = Scenes.fromkeys(read_or_fail(yaml_file.names, "workflow/scenes"))
 # Not by `configfile:`, which takes the last of equal keys. `config`: what --config gives.
 CONFIG = read_or_fail(read_config, "workflow/config.yaml", config, SCENES)

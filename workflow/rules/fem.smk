@@ -1,6 +1,20 @@
 FEM_USES = (*GEOMETRY_USES, "material", "max_speed_rad_s", "prestress")
 
 
+use rule build_mesh as build_mesh_at_rest with:
+    input:
+        unpack(blade_source),
+        code=code_of("workflow.jobs.mesh_at_rest"),
+    wildcard_constraints:
+        blade=one_of(AS_IT_RUNS),
+    params:
+        run="workflow.jobs.mesh_at_rest:build",
+        blade=blade_file,
+        uses=blade_uses(*GEOMETRY_USES, "geometry_at_rpm", "material"),
+    message:
+        "Mesh of blade {wildcards.blade} at rest"
+
+
 rule assemble:
     input:
         code=code_of("workflow.jobs.full_model"),

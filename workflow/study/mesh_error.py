@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 
 from fem.assemble import assemble
+from fem.at_rest import build_mesh_at_rest
 from fem.matrices import Matrices
 from geometry.blade import Blade
-from geometry.mesh import build_mesh
 from geometry.project import UserError
 from rom.full_model import FullModel, compliance_of_strips, solve
 
@@ -57,7 +57,7 @@ def remeshed(blade: Blade, source: str | None) -> Matrices:
     """
     with TemporaryDirectory() as folder:
         mesh = Path(folder, "blade.msh")
-        build_mesh(blade, mesh, source)
+        build_mesh_at_rest(blade, mesh, source)
         return assemble(blade, "coarser", mesh, [0.0])
 
 

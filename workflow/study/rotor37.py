@@ -1,4 +1,4 @@
-"""Tables of frequencies with either prestress, and with other cuts of the edges: of rotor 37."""
+"""Tables of frequencies of rotor 37: either prestress, running geometry, other edges."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -11,6 +11,7 @@ from simulate.sweeps.peak import crossing_of
 from workflow import markdown
 
 CUT = "cut"  # group of the rows with other cuts
+RUNS = "geometry as it runs"  # at the last speed
 MODES = 8  # of the tables
 HEADS = [f"mode {m}" for m in range(1, MODES + 1)]
 
@@ -18,11 +19,15 @@ type Rows = Sequence[Mapping[str, Any]]  # of an experiment with ``frequencies.n
 
 
 def prestress_table(rows: Rows) -> str:
-    """Frequencies at three speeds with either prestress, and the crossing of engine order 4."""
+    """Frequencies at three speeds with either prestress, and the crossing of engine order 4.
+
+    Also with the geometry taken for that at the last speed.
+    """
     speeds, f = rows[0]["numbers"]["speeds_rad_s"], _frequencies(rows)
-    lines = [_line("at rest", f["nonlinear"][0])]
+    lines = [_line("at rest", f["nonlinear"][0]), _line(f"at rest, {RUNS}", f["running"][0])]
     for j in (1, 2):
         lines += [_line(f"{speeds[j]:g} rad/s, {name}", f[name][j]) for name in STATES]
+    lines += [_line(f"{speeds[2]:g} rad/s, nonlinear, {RUNS}", f["running"][2])]
     omega = {name: 2 * np.pi * f[name][:, 0] for name in STATES}
     crossings = ", ".join(f"{crossing(speeds, omega[n], 4):.4f} ({n})" for n in STATES)
     shown = markdown.table(["Hz", *HEADS], lines)

@@ -1,0 +1,11 @@
+"""The mesh at rest of a blade whose geometry is given as it runs."""
+
+from fem.at_rest import build_mesh_at_rest
+from geometry.blade import Blade
+from geometry.project import Say
+from workflow.jobs.mesh import tell_of
+
+
+def build(blade: Blade, mesh: str, now: Say, source: str | None = None) -> None:
+    """Mesh a blade at rest, with the geometry in the file ``source`` where its own names one."""
+    tell_of(build_mesh_at_rest(blade, mesh, source), now)
