@@ -20,7 +20,7 @@ from geometry.given import GivenMatrices
 from geometry.project import UserError, command, read_json, write_whole
 from simulate.scene import Scene
 from workflow.identify import report as identified
-from workflow.markdown import table
+from workflow.markdown import change, table, two_digits
 from workflow.paper import long, report
 from workflow.paper.claims import COATING
 from workflow.paper.printed import SHIFTS
@@ -84,6 +84,42 @@ def inputs(counts: Mapping[str, Any]) -> str:
     return table(head, [*rows, totals])
 
 
+def bricks(solved: Mapping[str, Any]) -> str:
+    """Frequencies by kind of cell and program, and the largest difference from their limit."""
+    limit = solved["limit_Hz"]
+    rows = [
+        [
+            f"{of['cells']:,} {of['kind']}",
+            of["program"],
+            _nodes(of),
+            *_few(of["frequencies_Hz"]),
+            *map(_farthest, of["frequencies_Hz"], limit),
+            two_digits(of["cpu_s"]),
+        ]
+        for of in solved["rows"]
+    ]
+    at_speed = f"at {solved['speed_rad_s']:g} rad/s"
+    head = ["cells", "program", "nodes", "f₁, Hz", "f₂", "f₁₀", f"f₁ {at_speed}"]
+    head += ["largest of ten differences", at_speed, "CPU, s"]
+    return table(head, [["limit of tetrahedra", "", "", *_few(limit), "", "", ""], *rows])
+
+
+def _nodes(solved: Mapping[str, Any]) -> str:
+    """Nodes of a file, and where they are others those that were solved for."""
+    return " → ".join(f"{n:,}" for n in dict.fromkeys([solved["nodes"], solved["solved"]]))
+
+
+def _few(frequencies: Sequence[Sequence[float]]) -> list[str]:
+    """The first, second and tenth frequency at rest, and the first at speed."""
+    at_rest, at_speed = frequencies
+    return [f"{f:.2f}" for f in (at_rest[0], at_rest[1], at_rest[9], at_speed[0])]
+
+
+def _farthest(frequencies: Sequence[float], limit: Sequence[float]) -> str:
+    """The largest relative difference."""
+    return change(max((f / of - 1 for f, of in zip(frequencies, limit, strict=True)), key=abs))
+
+
 # block, file that holds its numbers, what writes them
 TRADE = "results/experiments/trade/table.json"
 COMPUTED = (
@@ -116,6 +152,7 @@ COMPUTED = (
     ("extremes", "results/figures/stability-matrix.json", stability.extremes),
     ("cuts", "results/experiments/frequencies/table.json", rotor37.edge_cuts_table),
     ("inputs", "tests/inputs/counts.json", inputs),
+    ("bricks", "tests/fem/bricks.json", bricks),
     ("growth", "results/scaling/scaling.json", scaling.table),
 )
 SETTINGS = {"blade": Blade, "given": GivenMatrices, "scene": Scene}  # block: what checks the file

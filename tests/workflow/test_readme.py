@@ -13,7 +13,7 @@ from made_sweeps import ROOT, save_runs
 from projects import make_project
 
 from geometry.blade import Blade
-from geometry.project import check_settings
+from geometry.project import check_settings, read_json
 from simulate.scene import Scene
 from simulate.scene.laws.plastic import Plastic
 from workflow.figures import table
@@ -123,6 +123,12 @@ def test_a_block_that_is_on_no_page_or_on_two_or_unknown_or_without_end_is_named
 def test_pages_without_results_keep_their_numbers_and_have_the_settings_of_the_models(tmp_path):
     assert generated(TEXTS, tmp_path) == TEXTS
     assert len(COMPUTED) == len({name for name, *_ in COMPUTED})
+
+
+@pytest.mark.parametrize("name", ["inputs", "bricks"])
+def test_numbers_that_are_kept_with_the_tests_are_those_of_the_page(name):
+    ((file, table_of),) = [(file, of) for block, file, of in COMPUTED if block == name]
+    assert any(table_of(read_json(ROOT / file)) in text for text in TEXTS.values())
 
 
 def test_found_has_both_coatings_at_both_orders_beside_the_papers_shifts():

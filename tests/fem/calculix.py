@@ -1,0 +1,105 @@
+"""Frequencies by CalculiX (`ccx`, package calculix-ccx of Debian) of cells that we give it."""
+
+import resource
+import shutil
+import subprocess
+from collections.abc import Iterator
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geometry.blade import Material
+
+CCX = shutil.which("ccx")
+COUNT = 10
+A_LINE = 16  # numbers that ccx reads of a line
+
+
+class Cells(NamedTuple):
+    """A mesh clamped at its root; every point belongs to a cell."""
+
+    kind: str  # as C3D20
+    points: NDArray  # (n, 3), m
+    nodes: NDArray  # (m, k), in VTK's order, which is that of Abaqus
+    root: NDArray  # nodes
+
+
+class Found(NamedTuple):
+    """Frequencies (COUNT,), Hz, to seven digits, and the CPU time that ccx took, s."""
+
+    frequencies: NDArray
+    seconds: float
+
+
+def version() -> str:
+    """Version of the program."""
+    return subprocess.run([CCX, "-v"], capture_output=True, text=True).stdout.split()[-1]
+
+
+def frequencies(cells: Cells, material: Material, speed: float = 0.0) -> Found:
+    """Lowest frequencies about the equilibrium at a speed (rad/s) about the z axis; one thread."""
+    with TemporaryDirectory() as folder:
+        deck = Path(folder) / "blade.inp"
+        deck.write_text("\n".join([*_mesh(cells), *_material(material), *_steps(speed), ""]))
+        before = _children()
+        log = subprocess.run(
+            [CCX, "-i", deck.stem],
+            cwd=folder,
+            env={"OMP_NUM_THREADS": "1"},
+            capture_output=True,
+            text=True,
+        )
+        seconds = _children() - before
+        result = deck.with_suffix(".dat")
+        found = _read(result.read_text()) if result.exists() else []
+    if len(found) < COUNT:
+        raise RuntimeError(f"ccx found {len(found)} of {COUNT} frequencies:\n{log.stdout[-2000:]}")
+    return Found(np.array(found[:COUNT]), seconds)
+
+
+def _children() -> float:
+    """CPU time of the processes that have ended, s."""
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
+
+
+def _mesh(cells: Cells) -> Iterator[str]:
+    yield "*NODE, NSET=ALL"
+    for number, point in enumerate(cells.points, 1):
+        # of a number 20 characters are read: without its exponent if it is longer
+        yield ", ".join([str(number), *(f"{x:.12e}" for x in point)])
+    yield f"*ELEMENT, TYPE={cells.kind}, ELSET=BLADE"
+    for number, nodes in enumerate((cells.nodes + 1).tolist(), 1):
+        row = [number, *nodes]
+        lines = [row[i : i + A_LINE] for i in range(0, len(row), A_LINE)]
+        yield ",\n".join(", ".join(map(str, line)) for line in lines)
+    yield "*NSET, NSET=ROOT"
+    yield from (f"{node + 1}," for node in cells.root.tolist())
+    yield from ("*BOUNDARY", "ROOT, 1, 3")
+
+
+def _material(material: Material) -> Iterator[str]:
+    yield from ("*MATERIAL, NAME=METAL", "*ELASTIC")
+    yield f"{material.young_modulus:.12e}, {material.poisson_ratio}"
+    yield from ("*DENSITY", f"{material.density_kg_m3}")
+    yield "*SOLID SECTION, ELSET=BLADE, MATERIAL=METAL"
+
+
+def _steps(speed: float) -> Iterator[str]:
+    """At a speed the nonlinear equilibrium, and modes about it with its stress and its load."""
+    modes = ["*FREQUENCY", str(COUNT), "*END STEP"]
+    if not speed:
+        yield from ("*STEP", *modes)
+        return
+    yield from ("*STEP, NLGEOM", "*STATIC", "*DLOAD")
+    yield f"BLADE, CENTRIF, {speed**2:.12e}, 0, 0, 0, 0, 0, 1"
+    yield from ("*END STEP", "*STEP, PERTURBATION", *modes)
+
+
+def _read(result: str) -> list[float]:
+    """Frequencies, Hz, of the table that ccx writes: number, eigenvalue, rad/s, Hz, imaginary."""
+    rows = [line.split() for line in result.splitlines()]
+    return [float(row[3]) for row in rows if len(row) == 5 and row[0].isdigit()]
