@@ -43,6 +43,7 @@ from geometry.hats import hat_nodes
 from geometry.profile import profile_at
 from geometry.project import ProvenanceError
 from rom.check import RomCheck
+from rom.full_model import FullModel
 from simulate.scene import Scene
 from simulate.scene.sobol import Sobol, indices
 from simulate.sweeps.dataset import save as save_sweep
@@ -147,6 +148,14 @@ def with_twins(sweep, rom, departure):
 
 
 @pytest.fixture(scope="module")
+def of_user(sweep, rom):
+    """The same from a scene that gives its speeds in rad/s."""
+    speeds = {"over_f1": None, "rad_s": sweep["speed"].values.tolist()}
+    scene = Scene.load(ROOT / "workflow/scenes/hand-e1.yaml").but(speeds=speeds)
+    return Response(sweep.assign_attrs(attrs_of(scene, "mine")), rom)
+
+
+@pytest.fixture(scope="module")
 def twinned(sweep, rom):
     """With twins that differ at ``SENSITIVE`` in the spectrum, at the last also in wear."""
     spectrum, wear, history = np.full((3, len(SPEEDS)), 1e-9)
@@ -181,6 +190,11 @@ def apart(model):
     K = model.K.copy()
     K[0, 2, 2] *= 2
     return dataclasses.replace(model, K=K)
+
+
+def named(response, name):
+    """The response of a scene of another name."""
+    return Response(response.sweep.assign_attrs(name=name), response.rom)
 
 
 @pytest.fixture
@@ -312,11 +326,28 @@ def stressed(displacement, von_mises):
         "blade": "mine",
         "scene": "peak",
         "speed_over_f1": 0.346,
+        "speed_rad_s": 565.5,
         "time_rounds": 19.25,
-        "von_mises": {"largest_Pa": values.max(), "largest_of_cells_Pa": 450e6},
+        "von_mises": {
+            "largest_Pa": values.max(),
+            "largest_of_cells_Pa": 450e6,
+            "settled": {"largest_Pa": 102e6, "largest_of_cells_Pa": 103e6},
+        },
         "von_mises_of_prestress": {"largest_Pa": 123e6, "largest_of_cells_Pa": 140e6},
     }
     return bar, numbers
+
+
+@pytest.fixture(scope="module")
+def modes(blade_files):  # noqa: F811
+    """Five modes on the nodes of a mesh, at 100, 250, 400, ... Hz: bending, rotation of the tip."""
+    points = blade_files[0].points
+    turned = np.cross([1.0, 0.0, 0.0], points - points.mean(axis=0))
+    across = np.tile([0.0, 1.0, 0.0], (len(points), 1))
+    omega = 2 * np.pi * (100.0 + 150.0 * np.arange(5))[None]
+    of = {"residuals": omega, "compliance": omega, "shapes": np.array([across] + 4 * [turned])}
+    at = {"speeds": np.zeros(1), "coordinates": points, "provenance": PROVENANCE}
+    return blade_files[0], FullModel(omega=omega, **of, **at)
 
 
 def bent(points):
@@ -342,14 +373,17 @@ FIGURES = {
     ),
     "fig10": lambda get: spectra.over_speeds(get("seen")),
     "fig10 with twins": lambda get: spectra.over_speeds(get("twinned")),
+    "spectra in rpm": lambda get: spectra.over_speeds(get("of_user")),
+    "wear in rpm": lambda get: wear.over_speeds(get("of_user")),
     "fig11": lambda get: wear.over_speeds(get("seen")),
     "fig11 with twins": lambda get: wear.over_speeds(get("twinned")),
-    "fig12": lambda get: wear.profiles([get("seen"), get("twinned")]),
+    "fig12": lambda get: wear.profiles([get("seen"), named(get("twinned"), "paper-e10")]),
     "fig13": lambda get: coatings.peaks(get("grid")),
     "fig13-k6": lambda get: coatings.peaks(get("grid"), order=6),
     "fig16": lambda get: spectra.over_time(*read(spectra, get("spectrogram_files"), "over_time")),
     "identified": lambda get: identification.posterior(get("fits"), PRIORS),
     "together": lambda get: identification.together({"prior": {"4.55": SHARES}}),
+    "modes": lambda get: fig09_modes.draw(*get("modes")),
     "gap": lambda get: clearance.gap(get("rest")),
     "loads": lambda get: loads.panels(get("two_loads"), F1, "mine"),
     "long times": lambda get: long_times.through_peak(
@@ -406,6 +440,15 @@ def cell_of_order_4(axes):
     cell = 2 * list(SPEEDS).index(PEAK_4)  # the empty ones between speeds count
     corners = mapped.get_coordinates()[cell : cell + 2, 40:42].mean(axis=(0, 1))
     return [*corners, mapped.get_array().reshape(2 * len(SPEEDS) - 1, -1)[cell, 40]]
+
+
+def colours_of(mapped, speed, angle):
+    """Colours of a map at a speed and angle, and where there is no run."""
+    corners = mapped.get_coordinates()
+    column = np.searchsorted(corners[0, :, 0], speed) - 1
+    row = np.searchsorted(corners[:, 0, 1], angle) - 1
+    value = mapped.get_array().reshape(len(corners) - 1, -1)[row, column]
+    return [mapped.to_rgba(value)[:3], mpl.colors.to_rgb(mapped.axes.get_facecolor())]
 
 
 def at_own_size(axes):
@@ -573,6 +616,47 @@ NUMBERS = {  # by figure and what is shown: the numbers that are drawn, and what
     ("fig10", "µm of the amplitudes"): (
         lambda drawn: scale_beside(drawn.axes[1], "µm"),
         1e6 * GAP,
+    ),
+    ("spectra in rpm", "round speeds at the ticks"): (
+        lambda drawn: [float(tick.get_text()) for tick in drawn.axes[1].get_xticklabels()],
+        [0, 500, 1000, 1500, 2000, 2500],
+    ),
+    ("spectra in rpm", "where 1000 rpm are"): (
+        lambda drawn: drawn.axes[1].get_xticks()[2],
+        1000 / 60 / F1,
+    ),
+    ("spectra in rpm", "round frequencies at the ticks"): (
+        lambda drawn: [float(tick.get_text()) for tick in drawn.axes[0].get_yticklabels()],
+        [0, 50, 100, 150, 200, 250],
+    ),
+    ("spectra in rpm", "amplitudes of the peaks in µm"): (
+        lambda drawn: points(drawn.axes[1], ".")[:, 1],
+        [1e6 * GAP * 3.02, 1e6 * GAP * 2.02],
+    ),
+    ("spectra in rpm", "cell of an engine order in µm"): (
+        lambda drawn: cell_of_order_4(drawn.axes[0]),
+        [PEAK_4, 4 * PEAK_4, 1e6 * GAP * 3.02],
+    ),
+    ("spectra in rpm", "gaps beside the amplitudes"): (
+        lambda drawn: scale_beside(drawn.axes[1], "over gap"),
+        1e-6 / GAP,
+    ),
+    ("wear in rpm", "deepest wear in µm"): (
+        lambda drawn: at_speeds(drawn.axes[1].lines[0], PEAK_4, SPEEDS[FAILED]),
+        [1e6 * GAP * 3, np.nan],
+    ),
+    ("fig11", "rpm of the wear map"): (
+        lambda drawn: scale_beside(drawn.axes[2], "speed (rpm)"),
+        60 * F1,
+    ),
+    ("fig11", "white is without wear, grey without a run"): (
+        lambda drawn: colours_of(drawn.axes[0].collections[0], 0.1, 90),
+        [[1, 1, 1], [0.88, 0.88, 0.88]],
+    ),
+    ("fig12", "µm of the profiles"): (lambda drawn: scale_beside(drawn.axes[0], "µm"), 1e6 * GAP),
+    ("modes", "frequencies in Hz"): (
+        lambda drawn: [axes.get_title().splitlines()[1].split()[0] for axes in drawn.axes[:5]],
+        ["100", "250", "400", "550", "700"],
     ),
     ("fig11", "crossings above the wear map"): (
         lambda drawn: points(drawn.axes[0], "v")[:, 0],
@@ -773,10 +857,16 @@ def test_runs_that_missed_their_accuracy_are_sensitive(sweep, rom):
     assert not found.sensitive("spectrum").any() and not found.sensitive("history").any()
 
 
-def test_figure_summary_and_claim_name_the_same_peaks(sweep, rom, seen):
+def test_figure_summary_and_claim_name_the_same_peaks(sweep, rom, seen, of_user):
     marked = [(peak.k, peak.Omega_c, peak.amplitude) for peak in seen.peaks]
     told = asked(sweep, rom)
     judged = coating(sweep, rom)["peaks"]
+    rows = [{"rpm": 60 * F1 * peak.Omega_c, "um": 1e6 * GAP * peak.amplitude} for peak in told]
+    speeds, _, lengths = of_user.units[0]
+    for row, peak in zip(rows, of_user.peaks, strict=True):
+        assert speeds.text(peak.Omega_c) == f"{row['rpm']:.0f} rpm"
+        assert lengths.scale * peak.amplitude == pytest.approx(row["um"], rel=1e-12)
+    assert seen.units == of_user.units[::-1]
     assert [(peak.k, peak.Omega_c, peak.amplitude) for peak in told] == marked
     assert [peak.lobes for peak in told] == [4, 6]
     away = [(end["over_f1"], end["lobes"], end["status"]) for end in ends(sweep)]
@@ -888,6 +978,17 @@ def test_the_blade_is_deformed_by_a_scale_of_one_digit_with_its_corners_named():
     at = stress.corners(bar[0].points)
     assert [at[name][0] for name in ("LE", "TE", "tip", "hub")] == [3, 3, 3, 0]
     assert (at["LE"][2], at["TE"][2]) == (0, 1)  # upstream, downstream
+
+
+def test_the_heading_of_the_stress_has_the_summarys_number():
+    heading = stress.title(stressed(bent, at_one_side)[1])
+    assert "5400 rpm" in heading and "away from clamp and contact 102 (103) MPa" in heading
+
+
+def test_moduli_are_named_in_pascals(seen):
+    """hand-e1: unit 8 GPa, E = 1, K = 0.45, sigma_Y = 1e-8."""
+    label = r"plastic, $E$ = 8 GPa, $K$ = 3.6 GPa, $\sigma_Y$ = 80 Pa"
+    assert seen.title == f"scene paper-e1, blade reference: {label}"
 
 
 def test_pressure_side_is_the_blades_own():

@@ -2,11 +2,12 @@
 
 import numpy as np
 import pytest
+from projects import ROOT
 from scenes import scene
 
 from rom.reduce import reduce
 from simulate.sweeps.over_speeds import at_speeds
-from workflow.figures import loads
+from workflow.figures import loads, table
 from workflow.figures.response import Response
 
 EXACT = {"scheme": "piecewise-exact", "steps_per_round": 2048}
@@ -65,10 +66,13 @@ def test_without_a_torque_there_is_no_line_and_the_figure_says_why(loads_of, why
         ("worn_volume", "wear", "record.wear"),
     ],
 )
-def test_a_number_that_is_known_at_peaks_alone_names_the_key_that_records_it(
+def test_a_number_that_is_known_at_peaks_alone_is_said_and_the_caption_names_its_key(
     loads_of, name, variable, key
 ):
+    rows = table.read(ROOT / "workflow/figures/figures.yaml")
+    assert key in rows["loads-{blade}"].caption
     peak = {"k": 4, "Omega_c": 0.33, "numbers": {name: 2.0}, "errors": {name: 0.1}}
     for without, told in (((), False), (variable, True)):
         drawn = loads.panels([loads_of(without)._replace(peaks=[peak])], 100.0, "mine")
-        assert any(key in text.get_text() for axes in drawn.axes for text in axes.texts) is told
+        texts = [text.get_text() for axes in drawn.axes for text in axes.texts]
+        assert ("known at the peaks alone" in texts) is told

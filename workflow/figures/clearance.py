@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from simulate.errors.signals import gaps_at_ends, leading_gap
 from simulate.scene import LEADING, TRAILING
-from workflow.figures import style
+from workflow.figures import style, units
 from workflow.figures.marks import CASING_ANGLE
 from workflow.figures.response import Response
 
@@ -90,7 +90,8 @@ def gap(sweep: Response) -> Figure:
     for (xi, look), given, gaps in zip(LOOKS.items(), at_rest, running, strict=True):
         axes.plot(sweep.speeds, MICRO * gaps, label=rf"$\xi$ = {xi}", **look)
         axes.axhline(MICRO * given, color=look["color"], linestyle=":", linewidth=0.8)
-    axes.set(xlabel=style.SPEED_LABEL, ylabel="gap (µm)", ylim=(0, None))
+    axes.set(ylabel="gap (µm)", ylim=(0, None))
+    units.below(axes, *sweep.units)
     axes.legend(title="dotted: at rest")
-    drawn.suptitle(sweep.title.partition(":")[0], fontsize=8)
+    drawn.suptitle(sweep.names, fontsize=8)
     return drawn

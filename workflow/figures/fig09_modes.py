@@ -24,30 +24,30 @@ def draw(mesh: views.Mesh, full: FullModel) -> Figure:
     """All mode shapes side by side, with the same view and colour scale."""
     blade = views.solid(mesh)
     shapes = unit_length(spread(blade.points, full.coordinates, full.shapes))
-    frequencies = full.omega[0, : len(shapes)] / full.omega[0, 0]
+    frequencies = full.omega[0, : len(shapes)] / (2 * np.pi)
     height = blade.points[:, 0]
     tip = height > height.max() - TIP * np.ptp(height)
     rows = []
     for m, (shape, frequency) in enumerate(zip(shapes, frequencies, strict=True)):
         title = (
-            f"({ascii_lowercase[m]}) mode {m + 1}\n$f/f_1(0)$ = {frequency:.2f}\n"
+            f"({ascii_lowercase[m]}) mode {m + 1}\n{frequency:.0f} Hz\n"
+            f"$f/f_1(0)$ = {frequency / frequencies[0]:.2f}\n"
             f"tip rotation {100 * rotation_share(blade.points[tip], shape[tip]):.0f} %"
         )
         moved = SHOWN * max(blade.bounds_size) * shape
         rows.append((title, moved, np.linalg.norm(shape, axis=1), VIEW))
-    drawn = views.gallery(
+    return views.gallery(
         blade,
         rows,
         (COLOURS, (0, 1), LIGHT),
         style.DOUBLE,
         {},
+        f"blade {full.provenance.blade}, at rest",
         shrink=0.4,
         aspect=40,
         label="displacement over its largest value (outline: undeformed blade)\n"
         "tip rotation: share of the tip's squared displacement that is rotation about the radius",
     )
-    drawn.suptitle(f"blade {full.provenance.blade}, at rest", fontsize=8)
-    return drawn
 
 
 def rotation_share(points: NDArray[np.float64], shape: NDArray[np.float64]) -> float:

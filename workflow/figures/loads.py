@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from rom.model import Rom
 from simulate.errors.loads import mean_force, mean_opening, torque, worn_volume
-from workflow.figures import style
-from workflow.figures.marks import NO_LINES, RPM_PER_HZ, operating_lines
+from workflow.figures import style, units
+from workflow.figures.marks import NO_LINES, operating_lines
 from workflow.figures.response import Response
 
 LOOKS = (  # of scenes, told apart without colour
@@ -87,8 +87,6 @@ PANELS = (  # number, label, scale
     ("stress", "largest\nstress (MPa)", MPA),
 )
 
-RECORDED = {"force": "record.contact_force", "worn_volume": "record.wear"}  # keys of scenes
-
 
 @style.styled
 def panels(
@@ -110,8 +108,7 @@ def panels(
         note = _unknown(loads) if name == "torque" else _not_recorded(loads, name)
         axes.text(1, 1.03, note, ha="right", va="bottom", transform=axes.transAxes, fontsize=7)
     critical = {p["k"]: p["Omega_c"] for of in loads for p in of.peaks if p["k"]}
-    used[-1].set_xlabel(style.SPEED_LABEL)
-    style.below(used[-1], RPM_PER_HZ * f1, style.RPM_LABEL)
+    units.below(used[-1], units.of_engines(f1), units.NORMS)
     for axes in used:
         operating_lines(drawn if axes is used[0] else None, axes, f1, operating, critical, "peak")
     style.legend(drawn, "lower left", ncols=2)
@@ -125,13 +122,13 @@ def _unknown(loads: Sequence[Loads]) -> str:
 
 
 def _not_recorded(loads: Sequence[Loads], name: str) -> str:
-    """Of which scenes a number is known at the peaks alone, and the key that records it."""
+    """Of which scenes a number is known at the peaks alone."""
     known = [of for of in loads if _has(of, name)]
     without = [of.name for of in known if name not in of.lines]
-    if not without or name not in RECORDED:
+    if not without:
         return ""
     names = f"of {', '.join(without)} " if len(without) < len(known) else ""
-    return f"{names}at peaks; elsewhere with {RECORDED[name]}"
+    return f"{names}known at the peaks alone"
 
 
 def _has(loads: Loads, name: str) -> bool:
@@ -157,5 +154,5 @@ def _draw(axes: Axes, loads: Loads, name: str, scale: float, at: int) -> None:
             markersize=3.5,
             elinewidth=0.8,
             capsize=2,
-            label=f"its peaks, {loads.name}",
+            label=f"peaks of scene {loads.name}",
         )

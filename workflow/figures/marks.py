@@ -18,10 +18,10 @@ from simulate.marching import SENSITIVE_FROM
 from simulate.sweeps.peak import Peak
 from workflow.figures import style
 from workflow.figures.response import Response
+from workflow.figures.units import RPM_PER_HZ
 
 CASING_ANGLE = r"casing angle $\theta$ (deg)"
 NO_LINES: Mapping[str, float] = MappingProxyType({})  # no operating lines
-RPM_PER_HZ = 60.0
 FOR_LEGEND = 0.35  # in, height of two operating lines in a legend
 OPERATING = ((0, (7, 2, 1.5, 2)), (0, (1.5, 1.5)))  # dashes of design and idle speed
 CROSSINGS_AT, PEAKS_AT = 1.035, 1.15  # of the axes' height
@@ -31,10 +31,10 @@ POINTS = 161  # speeds of a curve of natural frequencies
 
 
 def speed_text(response: Response, peak: Peak) -> str:
-    """Critical speed; where the sweep ends on the rise, its bound."""
+    """Critical speed with its unit; where the sweep ends on the rise, its bound."""
     last = peak.index == len(response.speeds) - 1
     beyond = "" if not peak.at_end else r"$\geq$ " if last else r"$\leq$ "
-    return f"{beyond}{peak.Omega_c:.3f}"
+    return beyond + response.units[0].speed.text(peak.Omega_c)
 
 
 def engine_order(axes: Axes, k: int, dashes: str, beside: float = 4) -> Annotation:
@@ -47,7 +47,7 @@ def engine_order(axes: Axes, k: int, dashes: str, beside: float = 4) -> Annotati
     axes.plot([0, end], [0, k * end], dashes, color=style.GREY, linewidth=0.8, zorder=1)
     at_right = {"offset": (beside, 0), "ha": "left", "va": "center"}
     above = {"offset": (0, 2), "ha": "center", "va": "bottom"}
-    return style.note(axes, (end, k * end), f"eo({k})", **(at_right if end == right else above))
+    return style.note(axes, (end, k * end), f"EO {k}", **(at_right if end == right else above))
 
 
 def operating_lines(
@@ -105,7 +105,7 @@ def mark_speeds(axes: Axes, response: Response) -> None:
 def _row(axes: Axes, height: float, face: str, title: str, speeds: dict[int, float]) -> None:
     """Draw a triangle and k at the speed of each engine order, with the row's title at the left."""
     across = axes.get_xaxis_transform()
-    axes.text(0.005, height, f"{title}, $k$ =", transform=axes.transAxes, fontsize=7, va="center")
+    axes.text(0.005, height, f"{title}, EO", transform=axes.transAxes, fontsize=7, va="center")
     look = {"color": style.BLACK, "markerfacecolor": face, "markersize": 4, "clip_on": False}
     at = list(speeds.values())
     axes.plot(at, [height] * len(at), "v", transform=across, label=title, **look)
@@ -116,7 +116,7 @@ def _row(axes: Axes, height: float, face: str, title: str, speeds: dict[int, flo
 def hatch(drawn: Figure, panels: Sequence[Axes], response: Response, observable: str) -> None:
     """Hatch speeds without a result, without contact, or with ``observable`` not predictable.
 
-    A legend below the figure explains the hatches that occur.
+    A legend below the figure explains the hatches that occur, and the colour where nothing was run.
     """
     ends = Counter(response.status[~response.has_result].tolist())
     listed = "not ok: " + ", ".join(f"{word} ({n})" for word, n in ends.items())
@@ -132,14 +132,13 @@ def hatch(drawn: Figure, panels: Sequence[Axes], response: Response, observable:
         (apart, white | {"hatch": NO_CONTACT}, f"no contact ({apart.sum()})"),
         (response.sensitive(observable), {"fill": False, "hatch": NOT_PREDICTABLE}, sensitive),
     )
-    handles = []
+    handles = [Patch(facecolor=style.NO_RUN, label="no run")]
     for which, hatched, label in looks:
         if which.any():
             look = {"edgecolor": style.GREY, "linewidth": 0} | hatched
             handles.append(Patch(label=label, **look))
             _bands(panels, response.speeds, which, **look)
-    if handles:
-        drawn.legend(handles=handles, loc="outside lower left", **SIZES)
+    drawn.legend(handles=handles, loc="outside lower left", **SIZES)
 
 
 def _bands(

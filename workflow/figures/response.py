@@ -7,6 +7,7 @@ from typing import Self
 
 import numpy as np
 import xarray as xr
+from matplotlib.ticker import EngFormatter
 from numpy.typing import NDArray
 
 from rom.model import Rom
@@ -15,8 +16,11 @@ from simulate.marching import SENSITIVE_FROM, WITH_RESULT
 from simulate.scene import LEADING, Scene
 from simulate.sweeps.dataset import load, scene_of
 from simulate.sweeps.peak import Peak, peaks_of
+from workflow.figures import units
+from workflow.markdown import rounded
 
 SYMBOLS = {"sigma_Y": r"\sigma_Y"}  # of parameters whose symbol differs from their name
+PASCAL = EngFormatter("Pa")
 
 
 @dataclass(frozen=True)
@@ -95,29 +99,40 @@ class Response:
         return (self.status == "sensitive") & (difference > SENSITIVE_FROM)
 
     @property
+    def units(self) -> tuple[units.Units, units.Units]:
+        """Units shown first, and those beside them: norms first where the scene gives speeds so.
+
+        The paper does; a scene that gives them in rad/s is shown in rpm and micrometres.
+        """
+        both = units.NORMS, units.of_engines(self.rom.f1, leading_gap(self.sweep))
+        return both if self.scene.speeds.unit == "over_f1" else both[::-1]
+
+    @property
+    def names(self) -> str:
+        """Names of scene and blade."""
+        name = self.sweep.attrs.get("name")
+        return f"scene {name}, blade {self.scene.blade}" if name else f"blade {self.scene.blade}"
+
+    @property
     def title(self) -> str:
         """Names of scene and blade, and the liner."""
-        name = self.sweep.attrs.get("name")
-        names = [f"scene {name}"] if name else []
-        return f"{', '.join([*names, f'blade {self.scene.blade}'])}: {self.label}"
+        return f"{self.names}: {self.label}"
 
     @property
     def label(self) -> str:
-        """The liner's law with its parameters and their unit, and the tip."""
+        """The liner's law with its parameters, and the tip."""
         return liner_and_tip(self.scene)
 
 
 def liner_and_tip(scene: Scene) -> str:
-    """The liner's law with its parameters and their unit, and the tip, for labels."""
+    """The liner's law with its parameters, moduli in Pa, and the tip, for labels."""
     law, contact = scene.liner.law, scene.contact
-    numbers = law.model_dump(exclude={"kind", "unit_Pa"})
+    unit = getattr(law, "unit_Pa", None)
     listed = [
-        f"${SYMBOLS.get(name, name)}$ = {value:g}"
-        for name, value in numbers.items()
-        if not isinstance(value, dict)  # a curve
+        f"${SYMBOLS.get(name, name)}$ = {PASCAL(rounded(unit * of, 3)) if unit else f'{of:g}'}"
+        for name, of in law.model_dump(exclude={"kind", "unit_Pa"}).items()
+        if not isinstance(of, dict)  # a curve
     ]
-    if unit := getattr(law, "unit_Pa", None):
-        listed.append(f"unit {unit / 1e9:g} GPa")
     label = ", ".join([law.kind, *listed]) if listed else f"liner: {law.kind}"
     if contact.profile is None:
         return label

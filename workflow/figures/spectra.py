@@ -9,12 +9,11 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import MultipleLocator
 from numpy.typing import NDArray
 
-from simulate.errors.signals import leading_gap, mode_share, spectrogram
+from simulate.errors.signals import mode_share, spectrogram
 from simulate.sweeps.peak import Peak, along_order, crossing
-from workflow.figures import style
+from workflow.figures import style, units
 from workflow.figures.marks import (
     NO_LINES,
-    RPM_PER_HZ,
     engine_order,
     frequencies_over_speed,
     hatch,
@@ -39,7 +38,7 @@ CURVES = {  # engine orders drawn as amplitudes
 OTHERS = {"color": style.GREY, "linewidth": 0.8}  # engine orders with a peak, beside CURVES
 NEAR = 0.07  # of the critical speed, to both sides: where these are drawn
 SHADE = 0.25  # opacity of the paper's critical speeds
-LABEL = f"amplitude of $u_r$ at {style.PLACE}, {style.OVER_GAP}"
+LABEL = f"amplitude of $u_r$ at {style.PLACE}"
 ENGINE_ORDER = 4  # at whose peak spectrograms are drawn
 MODES = 7  # natural frequencies marked in them
 WINDOW = 2  # rounds, of a spectrum
@@ -61,7 +60,8 @@ def over_speeds(
     drawn, (top, bottom) = style.subplots(
         style.DOUBLE, 5.5, 2, letters=True, sharex=True, height_ratios=(1.8, 1)
     )
-    scale = style.decades(np.nanmax(sweep.spectrum[:, 1:], initial=0), DECADES)
+    largest = sweep.units[0].length.scale * np.nanmax(sweep.spectrum[:, 1:], initial=0)
+    scale = style.decades(largest, DECADES)
     _map(top, sweep, scale)
     _overlay(top, sweep)
     _amplitudes(bottom, sweep, printed)
@@ -69,17 +69,10 @@ def over_speeds(
     hatch(drawn, (top, bottom), sweep, "spectrum")
     at_peaks = {peak.k: peak.Omega_c for peak in sweep.peaks}
     operating_lines(drawn, bottom, sweep.rom.f1, operating, at_peaks, "peak")
-    _units(top, bottom, sweep)
+    units.beside(top, *sweep.units, outward=30)  # beyond the names of engine orders
+    units.below(bottom, *sweep.units)
     drawn.suptitle(sweep.title, fontsize=8)
     return drawn
-
-
-def _units(top: Axes, bottom: Axes, response: Response) -> None:
-    """Second axes in Hz, micrometres and rpm."""
-    f1 = response.rom.f1
-    style.beside(top, f1, style.HZ_LABEL, outward=30)  # beyond the names of engine orders
-    style.beside(bottom, 1e6 * leading_gap(response.sweep), "amplitude (µm)")
-    style.below(bottom, RPM_PER_HZ * f1, style.RPM_LABEL)
 
 
 def _map(axes: Axes, response: Response, scale: tuple[float, float]) -> None:
@@ -89,10 +82,11 @@ def _map(axes: Axes, response: Response, scale: tuple[float, float]) -> None:
     speeds, amplitudes = style.over_speeds(response.speeds, response.spectrum[:, :bins])
     orders = style.edges(orders[:bins])
     across = np.broadcast_to(speeds[:, None], (len(speeds), len(orders)))
-    bar = {"label": LABEL, "extend": "both", "pad": 0.0, "aspect": 30}
-    style.log_map(axes, across, np.outer(speeds, orders), amplitudes, scale, **bar)
-    limits = style.limits(response.speeds)
-    axes.set(ylabel=style.FREQUENCY_LABEL, ylim=(0, SHOWN), xlim=limits)
+    unit = response.units[0].length
+    bar = {"label": f"{LABEL} {unit.label}", "extend": "both", "pad": 0.0, "aspect": 30}
+    cells = across, np.outer(speeds, orders), unit.scale * amplitudes
+    style.log_map(axes, *cells, scale, **bar)
+    axes.set(ylim=(0, SHOWN), xlim=style.limits(response.speeds))
 
 
 def _overlay(axes: Axes, response: Response) -> None:
@@ -112,14 +106,17 @@ def _overlay(axes: Axes, response: Response) -> None:
 
 def _amplitudes(axes: Axes, response: Response, printed: str | None) -> None:
     """Draw the amplitude along engine orders over the speed, and label the peaks."""
+    unit, second = (of.length for of in response.units)
     for k, (dashes, colour) in CURVES.items():
-        along = along_order(response.sweep, k)
-        axes.plot(response.speeds, along, linestyle=dashes, color=colour, label=f"eo({k})")
+        along = unit.scale * along_order(response.sweep, k)
+        axes.plot(response.speeds, along, linestyle=dashes, color=colour, label=f"EO {k}")
     _others(axes, response)
     paper = _printed(axes, response, printed) if printed else []
     handles = [*axes.get_legend_handles_labels()[0], *paper]
     axes.legend(handles=handles, loc="center left", bbox_to_anchor=(1.12, 0.5), handlelength=1.6)
-    axes.set(yscale="log", xlabel=style.SPEED_LABEL, ylabel=f"amplitude\n{style.OVER_GAP}")
+    axes.set(yscale="log", ylabel=f"amplitude\n{unit.label}")
+    axes.yaxis.set_major_formatter("{x:g}")
+    style.beside(axes, second.scale / unit.scale, f"amplitude {second.label}")
     for peak in response.peaks:
         _name(axes, response, peak)
 
@@ -131,7 +128,8 @@ def _others(axes: Axes, response: Response) -> None:
         if peak.k not in CURVES:
             near = abs(response.speeds - peak.Omega_c) <= NEAR * peak.Omega_c
             along = along_order(response.sweep, peak.k)[near]
-            axes.plot(response.speeds[near], along, label=label, **OTHERS)
+            scale = response.units[0].length.scale
+            axes.plot(response.speeds[near], scale * along, label=label, **OTHERS)
             label = None
 
 
@@ -147,10 +145,11 @@ def _printed(axes: Axes, response: Response, part: str) -> list[Patch]:
 
 def _name(axes: Axes, response: Response, peak: Peak) -> None:
     """Write k and the critical speed above the axes, with a line down to the peak."""
-    axes.plot(peak.Omega_c, peak.amplitude, ".", color=style.BLACK, markersize=4)
+    at = peak.Omega_c, response.units[0].length.scale * peak.amplitude
+    axes.plot(*at, ".", color=style.BLACK, markersize=4)
     axes.annotate(
-        f"$k$ = {peak.k}:  {speed_text(response, peak)}",
-        (peak.Omega_c, peak.amplitude),
+        f"EO {peak.k}:  {speed_text(response, peak)}",
+        at,
         (peak.Omega_c, 1.03),
         textcoords=axes.get_xaxis_transform(),
         rotation=90,
@@ -192,7 +191,7 @@ def _at_peak(response: Response, peak: Peak, f1: float) -> str:
     share = mode_share(last, samples, peak.Omega_c, f1)
     chance = ", sensitive" if response.status[peak.index] == "sensitive" else ""
     return (
-        rf"$\Omega_c/f_1(0)$: {speed_text(response, peak)}{chance}"
+        rf"$\Omega_c$ = {speed_text(response, peak)}{chance}"
         f"\nlast {SPECTRUM_ROUNDS} rounds: mode 1 has {100 * share:.1f} % of the energy; "
         f"entropy of the amplitudes {disorder(last, peak.Omega_c):.2f}"
     )

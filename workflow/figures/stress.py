@@ -18,6 +18,7 @@ LEVELS = 10  # of stress, few enough to read as contours
 VIEWS = {"pressure side": (0.3, 1.0, 0.55), "suction side": (0.3, -1.0, -0.55)}
 LIGHT = (1.0, 0.0)  # no shading: colours as in the colour bar
 MEGA = 1e-6
+RPM = 30 / np.pi  # of 1 rad/s
 END = 0.005  # of the height, the part that counts as tip or hub
 
 
@@ -28,20 +29,19 @@ def draw(fields: views.Fields, numbers: dict[str, Any]) -> Figure:
     levels = MaxNLocator(LEVELS).tick_values(0, stress.max())
     look = style.MAP.resampled(len(levels) - 1), (levels[0], levels[-1]), LIGHT
     moved = factor * fields["displacement (m)"]
-    drawn = views.gallery(
+    return views.gallery(
         fields,
         [(side, moved, stress, view) for side, view in VIEWS.items()],
         look,
         style.SINGLE,
         corners(fields.points),
+        title(numbers),
         shrink=0.9,
         aspect=30,
         ticks=levels[::2],
-        label="von Mises stress, averaged at nodes (MPa)\nin brackets: of one element\n"
+        label="von Mises stress, averaged at nodes (MPa)\nin brackets: largest of single elements\n"
         f"displacement $\\times$ {factor:g}; outline: undeformed",
     )
-    drawn.suptitle(title(numbers), fontsize=8, linespacing=1.3)
-    return drawn
 
 
 def corners(points: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
@@ -62,14 +62,18 @@ def exaggeration(blade: pv.UnstructuredGrid) -> float:
 
 
 def title(numbers: dict[str, Any]) -> str:
-    """Scene, speed, time, and the largest stress in total and of rotation alone."""
+    """Scene, speed, time, and the largest stress: the summary's, in total, of rotation alone."""
     total, static = (numbers[f"von_mises{of}"] for of in ("", "_of_prestress"))
     chance = ", sensitive run" if numbers["status"] == "sensitive" else ""
-    return (
-        f"scene {numbers['scene']}, blade {numbers['blade']}\n"
-        f"$\\Omega/f_1(0)$ = {numbers['speed_over_f1']:.3f}, after {numbers['time_rounds']:.2f} "
-        f"rounds{chance}\nlargest {_averaged(total)} MPa; of rotation alone {_averaged(static)} MPa"
-    )
+    away = total["settled"]
+    lines = [
+        f"scene {numbers['scene']}, blade {numbers['blade']}{chance}",
+        f"{numbers['speed_rad_s'] * RPM:.0f} rpm ({numbers['speed_over_f1']:.3f} $f_1(0)$), "
+        f"after {numbers['time_rounds']:.2f} revolutions",
+        *([f"away from clamp and contact {_averaged(away)} MPa"] if away else []),
+        f"anywhere {_averaged(total)} MPa; of rotation alone {_averaged(static)} MPa",
+    ]
+    return "\n".join(lines)
 
 
 def _averaged(stress: Mapping[str, float]) -> str:

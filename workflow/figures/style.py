@@ -33,6 +33,7 @@ ARROW = {"arrowstyle": "-|>", "linewidth": 1.0, "color": BLACK, "shrinkA": 0, "s
 MEASURE = {"arrowstyle": "<->", "linewidth": 0.6, "shrinkA": 0, "shrinkB": 0}
 # The darker the larger, also in grey; white below the scale and where there is no number.
 MAP = mpl.colormaps["magma_r"].with_extremes(under="white", bad="white")
+NO_RUN = "0.88"  # of maps over speeds, between and beyond these
 MAP_FROM_ZERO = ListedColormap(["white", *MAP(np.linspace(0, 1, 255))])
 
 RC = {
@@ -151,10 +152,14 @@ def log_map(
 ) -> None:
     """Colour the cells between the edges ``x`` and ``y`` on a logarithmic ``scale``.
 
-    ``bar``: arguments of its colour bar.
+    White is below the scale; without a number cells have the colour ``NO_RUN``. ``bar``: arguments
+    of the colour bar.
     """
-    look = {"norm": LogNorm(*scale), "cmap": MAP, "rasterized": True}
-    axes.figure.colorbar(axes.pcolormesh(x, y, values, **look), ax=axes, **bar)
+    axes.set_facecolor(NO_RUN)
+    look = {"norm": LogNorm(*scale), "cmap": MAP.with_extremes(under="white", bad=NO_RUN)}
+    seen = np.ma.maximum(values, scale[0] / 10)  # a logarithm of 0 would be no number
+    mapped = axes.pcolormesh(x, y, seen, rasterized=True, **look)
+    axes.figure.colorbar(mapped, ax=axes, format="{x:g}", **bar)
 
 
 def decades(largest: float, count: int) -> tuple[float, float]:

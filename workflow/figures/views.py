@@ -17,6 +17,7 @@ from workflow.figures import style
 
 PIXELS = (900, 1100)  # of one blade, before cropping
 UP = (1, 0, 0)  # the radius
+LINE, BAR, NAMES = 0.16, 0.75, 0.4  # in: a line of a title, the colour bar, names above the tip
 MARGIN = 1.5  # height of the picture over the blade's largest dimension
 
 
@@ -119,9 +120,10 @@ def gallery(
     look: tuple[Colormap, tuple[float, float], tuple[float, float]],
     width: float,
     names: Mapping[str, NDArray[np.float64]],
+    heading: str,
     **bar: Any,
 ) -> Figure:
-    """Pictures side by side under their titles; ``bar``: arguments of the colour bar below.
+    """Pictures side by side under a heading; ``bar``: arguments of the colour bar below.
 
     Each of ``rows`` is a title and the displacement, values and view of a picture; ``look`` are the
     colours, limits and light of all; ``names`` are written outside their points (3,), m. Margins
@@ -131,7 +133,8 @@ def gallery(
     images = [picture(grid, moved, values, view, *look) for _, moved, values, view in rows]
     seen = window(images)
     height, across = images[0][seen].shape[:2]
-    tall = width / len(rows) * height / across + (1.6 if names else 1.2)
+    lines = 2 + rows[0][0].count("\n") + heading.count("\n")
+    tall = width / len(rows) * height / across + LINE * lines + BAR + NAMES * bool(names)
     drawn, (panels,) = style.subplots(width, tall, 1, len(rows), squeeze=False)
     for axes, image, (title, *_, view) in zip(panels, images, rows, strict=True):
         axes.imshow(image[seen], interpolation="none")
@@ -145,6 +148,7 @@ def gallery(
             style.note(axes, tuple(at), name, (7 * away[0], -7 * away[1]), ha="center", va="center")
     mappable = ScalarMappable(Normalize(*limits), colours)
     drawn.colorbar(mappable, ax=list(panels), location="bottom", **bar)
+    drawn.suptitle(heading, fontsize=8, linespacing=1.3)
     return drawn
 
 

@@ -10,13 +10,13 @@ from matplotlib.ticker import MultipleLocator
 from scipy.signal import find_peaks
 
 from simulate.errors.signals import leading_gap, lobe_count
-from workflow.figures import style
+from workflow.figures import style, units
 from workflow.figures.marks import CASING_ANGLE, hatch, mark_speeds, over_casing, speed_text
 from workflow.figures.response import Response
 from workflow.paper.printed import CRITICAL, CROSSING, LOBES
 
 DECADES = 2  # of the scale of depths
-LABEL = f"{style.WORN},\n{style.OVER_GAP}"
+LABEL = f"{style.WORN}\n"
 ENGINE_ORDER = 4
 LINES = (("-", style.BLACK), ("--", style.VERMILLION))  # E = 1, E = 10, dashed as in the paper
 DEGREES = np.arange(-1, 362)  # one degree beyond 0 and 360: maxima may lie there
@@ -30,10 +30,12 @@ def over_speeds(sweep: Response, printed: str | None = None) -> Figure:
     """
     drawn, panels = style.subplots(style.DOUBLE, 4.4, 3, sharex=True, height_ratios=(3, 1, 1))
     top, depth, lobes = panels
-    scale = style.decades(sweep.wear.max(), DECADES)
-    speeds, depths = style.over_speeds(sweep.speeds, sweep.wear)
+    unit = sweep.units[0].length
+    worn = unit.scale * sweep.wear
+    scale = style.decades(worn.max(), DECADES)
+    speeds, depths = style.over_speeds(sweep.speeds, worn)
     angles = np.linspace(0, 360, depths.shape[1] + 1)
-    bar = {"label": LABEL, "extend": "min", "pad": 0.01, "aspect": 25}
+    bar = {"label": LABEL + unit.label, "extend": "min", "pad": 0.01, "aspect": 25}
     style.log_map(top, speeds, angles, depths.T, scale, **bar)
     top.set(ylabel=CASING_ANGLE, ylim=(0, 360), yticks=range(0, 361, 90))
     _below(depth, lobes, sweep)
@@ -49,12 +51,15 @@ def over_speeds(sweep: Response, printed: str | None = None) -> Figure:
 
 def _below(depth: Axes, lobes: Axes, response: Response) -> None:
     """Draw the deepest wear and the number of worn lobes at each speed."""
-    deepest = np.where(response.has_result, response.wear.max(axis=1), np.nan)
+    unit = response.units[0].length
+    deepest = np.where(response.has_result, unit.scale * response.wear.max(axis=1), np.nan)
     depth.plot(response.speeds, deepest, color=style.BLACK)
-    depth.set(yscale="log", ylabel=f"deepest\n{style.OVER_GAP}")
+    depth.set(yscale="log", ylabel=f"deepest\n{unit.label}")
+    depth.yaxis.set_major_formatter("{x:g}")
     counts = [lobe_count(wear) for wear in response.wear[response.has_result]]
     lobes.plot(response.speeds[response.has_result], counts, ".", color=style.BLACK, markersize=3)
-    lobes.set(xlabel=style.SPEED_LABEL, ylabel="worn\nlobes", ylim=(0, max([6, *counts]) + 1))
+    lobes.set(ylabel="worn\nlobes", ylim=(0, max([6, *counts]) + 1))
+    units.below(lobes, *response.units)
     lobes.yaxis.set_major_locator(MultipleLocator(2))
 
 
@@ -77,11 +82,13 @@ def _printed(axes: Axes, response: Response, part: str) -> None:
 def profiles(sweeps: Sequence[Response]) -> Figure:
     """Depth over the casing angle at the k = 4 peak, one line for each scene."""
     drawn, axes = style.subplots(style.SINGLE, 2.6)
-    names = apart([response.label for response in sweeps])
+    names = apart([f"scene {of.sweep.attrs['name']}, {of.label}" for of in sweeps])
     for response, name, (dashes, colour) in zip(sweeps, names, LINES, strict=True):
         _profile(axes, response, name, linestyle=dashes, color=colour)
     _nearest(axes, sweeps[0])
-    axes.set(ylabel=LABEL, ylim=(0, None))
+    first, second = (of.length for of in sweeps[0].units)
+    axes.set(ylabel=LABEL + first.label, ylim=(0, None))
+    style.beside(axes, second.scale / first.scale, f"worn depth {second.label}")
     drawn.legend(loc="outside upper center", ncols=1)
     return drawn
 
@@ -101,8 +108,9 @@ def _profile(axes: Axes, response: Response, name: str, **line: Any) -> None:
         axes.plot([], [], label=f"{name}: no speed near the peak", **line)
         return
     chance = ", not predictable" if response.sensitive("wear")[peak.index] else ""
-    at = rf"at $\Omega/f_1(0)$: {speed_text(response, peak)}{chance}"
-    over_casing(axes, response.wear[peak.index], label=f"{name}, {at}", **line)
+    label = f"{name}: {speed_text(response, peak)}{chance}"
+    worn = response.units[0].length.scale * response.wear[peak.index]
+    over_casing(axes, worn, label=label, **line)
 
 
 def _nearest(axes: Axes, response: Response) -> None:
