@@ -14,8 +14,11 @@ from scipy.spatial import cKDTree
 
 from fem.fields import FULL, fields, von_mises
 from rom.reconstruct import Basis
+from simulate.errors.signals import leading_gap
 from simulate.scene import Scene
 from simulate.sweeps.over_speeds import at_speeds
+from simulate.sweeps.peak import crossing
+from simulate.sweeps.peak_results import CROSSED
 from workflow.explore import page as pack
 from workflow.explore.blade import largest_stress, motion, moving
 from workflow.explore.page import html
@@ -63,7 +66,8 @@ def written(folder, response, motion=None, of_blade=None, **more):
 
 @pytest.fixture(scope="module")
 def page(response, moved, tmp_path_factory):
-    return written(tmp_path_factory.mktemp("explore"), response, *moved, peaks=[PEAK])
+    more = {"peaks": [PEAK], "operating": {"design": 4500.0}}
+    return written(tmp_path_factory.mktemp("explore"), response, *moved, **more)
 
 
 def unpacked(data, name):
@@ -153,6 +157,12 @@ def test_arrays_have_the_values_of_the_sweep(response):
     low, high = np.moveaxis(found["history"], -1, 0)
     extremes = [response.u_r.min(), response.u_r.max()]
     assert [low.min(), high.max()] == pytest.approx(extremes, rel=1e-6)
+    known = ~np.isnan(found["signal"])
+    samples = np.rint(response.sweep["motion_time"].values * 256).astype(int) - 1
+    np.testing.assert_allclose(
+        found["signal"][known], response.u_r[:, samples][known], atol=1e-6 * max(extremes)
+    )
+    assert known.any(axis=1).all()
     k4 = response.spectrum[:, 15:18].max(axis=1)  # four rounds: k = 4 is bin 16
     np.testing.assert_allclose(10 ** found["along"][:, ORDERS.index(4)], k4, rtol=1e-6)
 
@@ -163,6 +173,12 @@ def test_facts_are_those_of_the_sweep(response):
     assert told["tables"][0]["of"]["plastic"] == plastic.values.tolist()
     assert (told["status"], told["travels"]) == (["ok"] * len(SPEEDS), False)
     assert all(peak["k"] in told["orders"] for peak in told["peaks"])
+    assert told["norms"] is True  # its speeds are over f1(0)
+    speeds, frequencies = (np.array(told["campbell"][name]) for name in ("speeds", "frequencies"))
+    for k, speed in told["crossings"]:  # on f1 of the diagram, at the summary's numbers
+        assert np.interp(speed, speeds, frequencies[0]) == pytest.approx(k * speed, rel=1e-4)
+    summary = {k: crossing(response.rom, k) for k in CROSSED}
+    assert summary.items() <= dict(told["crossings"]).items()
     travelling = [{"order": 1, "amplitude_gaps": 1.0, "speed_rad_s": 30.0}]
     scene = response.scene.but(casing__harmonics=travelling).model_dump_json()
     moving = Response(response.sweep.assign_attrs(scene=scene), response.rom)
@@ -224,7 +240,9 @@ def browser():
 
 
 FLAGS = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
-PLOTS = {"orders": len(ORDERS), "map": 6, "spectrum": 1, "profile": 1, "polar": 3, "history": 2}
+PLOTS = {"campbell": 14 + 4 + 1, "orders": len(ORDERS), "map": 6, "spectrum": 1, "profile": 1}
+PLOTS |= {"polar": 3, "history": 2, "signal": 1}
+RECORDED = PLOTS.keys() - {"campbell"}
 WIDE, NARROW = {"width": 1200, "height": 900}, {"width": 400, "height": 800}
 
 
@@ -255,7 +273,9 @@ class Opened:
         return f"{SPEEDS[speed]:.4f}" in self.page.text_content("#at")
 
     def click(self, name, across):
-        box = self.page.query_selector(f"#{name} .nsewdrag").bounding_box()
+        area = self.page.query_selector(f"#{name} .nsewdrag")
+        area.scroll_into_view_if_needed()
+        box = area.bounding_box()
         self.page.mouse.click(box["x"] + across * box["width"], box["y"] + box["height"] / 2)
 
     def frames(self):
@@ -320,6 +340,66 @@ def test_the_blade_moves_turns_and_stops(page, browser):
     assert opened.quiet()
 
 
+def test_units_are_switched_and_numbers_saved(page, response, browser, tmp_path):
+    """In rpm and µm: the peak's speed and amplitude, operating lines, and the files."""
+    opened = Opened(browser, page)
+    assert opened.data("orders", "layout.xaxis.title.text") == "Ω / f₁(0)"
+    opened.page.select_option("#units", "engine")
+    f1, gap = response.rom.f1, 1e6 * leading_gap(response.sweep)
+    opened.page.wait_for_function(
+        "document.getElementById('map').layout.xaxis.title.text[0] == 's'"
+    )
+    assert opened.data("orders", "layout.xaxis.title.text") == "speed (rpm)"
+    rpm = f"{60 * f1 * SPEEDS[PEAK['index']]:.0f} rpm"
+    assert rpm in opened.page.text_content("#orders") and rpm in opened.page.text_content("#at")
+    for name in ("campbell", "orders", "map"):
+        assert "design 4500 rpm" in opened.page.text_content(f"#{name}")
+    assert opened.data("campbell", "layout.shapes[1].x0") == pytest.approx(4500)
+    opened.click("map", 0.02)
+    assert opened.is_at(0)
+    with opened.page.expect_download() as saved:
+        opened.page.click("#orders + .save button:has-text('CSV')")
+    saved.value.save_as(tmp_path / "orders.csv")
+    heads, first, *_ = (tmp_path / "orders.csv").read_text("utf-8-sig").splitlines()
+    assert heads == '"curve","speed (rpm)","amplitude ‖Y‖ (µm)"'
+    name, speed, amplitude = first.split(",")
+    assert name == '"EO 2"' and float(speed) == pytest.approx(60 * f1 * SPEEDS[0], rel=1e-5)
+    along = 10 ** arrays(response)["along"][0, 0]
+    assert float(amplitude) == pytest.approx(gap * along, rel=1e-3)  # 16 bits
+    for picture in ("#orders + .save button:has-text('PNG')", "#png"):
+        with opened.page.expect_download() as saved:
+            opened.page.click(picture)
+        assert saved.value.suggested_filename.endswith(".png")
+    assert opened.quiet()
+
+
+def test_no_number_has_an_exponent_and_what_is_for_developers_is_folded(page, browser):
+    opened = Opened(browser, page)
+    text = opened.page.inner_text("body")
+    assert not re.search(r"\de[+-]?\d|10\^|10<sup>", text)
+    assert not opened.page.is_visible("#numbers")
+    ticks = [float(tick) for tick in opened.page.inner_text("#ticks").split()]
+    assert ticks[0] == 0 and len(ticks) >= 4
+
+
+def test_edges_of_the_blade_are_named_and_the_view_is_reset(page, browser):
+    opened = Opened(browser, page)
+    opened.page.click("#play")
+    at = {name: opened.page.query_selector(f"#{name}").bounding_box() for name in ("LE", "TE")}
+    box = opened.page.query_selector("#blade").bounding_box()
+    for of in at.values():
+        assert box["x"] < of["x"] < box["x"] + box["width"]
+        assert box["y"] <= of["y"] < box["y"] + box["height"] / 3  # at the tip
+    still = opened.picture()
+    opened.page.focus("#blade")
+    opened.page.keyboard.press("ArrowLeft")
+    assert opened.picture() != still
+    assert opened.page.query_selector("#LE").bounding_box() != at["LE"]
+    opened.page.click("#reset")
+    assert opened.picture() == still
+    assert opened.quiet()
+
+
 def test_a_narrow_page_needs_no_scrolling_sideways(page, browser):
     opened = Opened(browser, page, NARROW)
     assert opened.page.evaluate("document.documentElement.scrollWidth") <= NARROW["width"]
@@ -349,7 +429,7 @@ def test_a_run_without_a_result_is_marked(response, moved, browser, tmp_path):
 def test_what_was_not_recorded_is_said(response, browser, tmp_path):
     kept = response.sweep.drop_vars(["spectrum", "wear", "motion", "envelope", "largest"])
     opened = Opened(browser, written(tmp_path, Response(kept, response.rom)))
-    for name in PLOTS:
+    for name in RECORDED:
         assert "not recorded" in opened.page.text_content(f"#{name}"), name
     assert "under explore" in opened.page.text_content("#still")
     opened.page.keyboard.press("ArrowRight")

@@ -21,6 +21,8 @@ void main() {
 const GREYS = [[0, "#f2f2f2"], [1, "#303030"]];
 const ANGLES = 61; // across the liner's surface
 const SPAN = 0.16; // rad, of the liner drawn, to both sides of the blade
+const VIEW = { turn: 0.9, tilt: 0.2, zoom: 1 }; // rad, from where the blade is seen at first
+const TIP = 0.005; // of the blade's height: its upper end
 const LARGEST = 0.15; // of the blade's length, the displacement drawn at first
 
 const rgb = (hex) => [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16));
@@ -83,6 +85,11 @@ function drawSurface(gl, surface) {
   gl.drawElements(gl.TRIANGLES, surface.count, gl.UNSIGNED_SHORT, 0);
 }
 
+function roundStep(least) { // 1, 2 or 5 times a power of ten
+  const power = 10 ** Math.floor(Math.log10(least));
+  return power * [1, 2, 5, 10].find((step) => step * power >= least * (1 - 1e-9));
+}
+
 function grid(down, across) { // triangles of a grid of nodes
   const found = [];
   for (let i = 0; i + 1 < down; i++)
@@ -140,7 +147,9 @@ function showBlade(codes, gl) {
     i % 3 === c ? (side ? Math.max(found, x) : Math.min(found, x)) : found, side ? -Infinity : Infinity)));
   const size = ends[0][1] - ends[0][0];
   const middle = ends.map(([low, high]) => (low + high) / 2);
-  const eye = { turn: 0.9, tilt: 0.2, zoom: 1 };
+  const eye = { ...VIEW };
+  const tip = range(nodes, (n) => n).filter((n) => points[3 * n] > ends[0][1] - TIP * size);
+  const [LE, TE] = [-1, 1].map((way) => tip.reduce((best, n) => (way * (points[3 * n + 2] - points[3 * best + 2]) > 0 ? n : best)));
   const now = { speed: 0, states: [], still: new Float64Array(2 * points.length), wear: [], deepest: 1, top: 1, time: 0 };
   let playing = !matchMedia("(prefers-reduced-motion: reduce)").matches, stamp = 0, frames = 0;
 
@@ -219,7 +228,15 @@ function showBlade(codes, gl) {
       gl.bindTexture(gl.TEXTURE_2D, palettes[i]);
       drawSurface(gl, surface);
     });
+    name("LE", LE, rowsOf, [(zoom * tall) / wide, zoom]);
+    name("TE", TE, rowsOf, [(zoom * tall) / wide, zoom]);
     canvas.dataset.frames = ++frames; // for tests
+  }
+
+  function name(edge, node, [right, up], zooms) { // where a corner is seen
+    const from = [0, 1, 2].map((c) => blade.place[3 * node + c] - middle[c]);
+    const [x, y] = [right, up].map((row, i) => zooms[i] * row.reduce((sum, of, c) => sum + of * from[c], 0));
+    Object.assign(byId(edge).style, { left: `${50 * (1 + x)}%`, top: `${50 * (1 - y)}%` });
   }
 
   function follow(speed) {
@@ -240,14 +257,20 @@ function showBlade(codes, gl) {
   function rescale() { // colours: from 0 to the largest value of the round
     now.top = Math.max(largest(now.states.map(({ a }) => largest(coloured(a, moved(a))))), 1e-12);
     const unit = byId("colour").value === "stress" ? "MPa, with that of rotation" : "µm, about the static deflection";
-    byId("range").textContent = `0 to ${now.top.toPrecision(3)} ${unit}; liner: grey, to ${now.deepest.toPrecision(2)} ` +
-      `gaps worn; ${facts.motion.shapes} shapes, which miss ${(100 * facts.motion.missed[now.speed]).toPrecision(1)} % of the motion`;
+    byId("range").textContent = `0 to ${plain(now.top)} ${unit}; liner: grey, to ${said("length", now.deepest)} ` +
+      `worn; ${facts.motion.shapes} shapes, which miss ${plain(100 * facts.motion.missed[now.speed], 1)} % of the motion`;
+    const step = roundStep(now.top / 5);
+    byId("ticks").replaceChildren(...range(Math.floor(now.top / step * (1 + 1e-9)) + 1, (i) => {
+      const tick = Object.assign(document.createElement("span"), { textContent: plain(i * step) });
+      tick.style.left = `${(100 * i * step) / now.top}%`;
+      return tick;
+    }));
   }
 
   function labels() {
-    byId("times").textContent = `× ${factor().toPrecision(2)}`;
+    byId("times").textContent = `× ${plain(factor(), 2)}`;
     const hertz = facts.speeds[now.speed] * facts.f1_Hz;
-    byId("slow").textContent = `${Math.round(hertz / pace())} times slower`;
+    byId("slow").textContent = `${plain(hertz / pace(), 2)} times slower`;
     byId("play").textContent = playing ? "stop" : "play";
   }
 
@@ -271,6 +294,7 @@ function showBlade(codes, gl) {
     show();
   }
   function zoomBy(part) { eye.zoom *= Math.exp(part); show(); }
+  function reset() { Object.assign(eye, VIEW); show(); }
 
   canvas.addEventListener("pointerdown", (event) => canvas.setPointerCapture(event.pointerId));
   canvas.addEventListener("pointermove", (event) => {
@@ -282,7 +306,7 @@ function showBlade(codes, gl) {
     zoomBy(-event.deltaY / 800);
   });
   const keys = { ArrowLeft: () => turn(-0.1, 0), ArrowRight: () => turn(0.1, 0), ArrowUp: () => turn(0, -0.1),
-    ArrowDown: () => turn(0, 0.1), "+": () => zoomBy(0.1), "=": () => zoomBy(0.1), "-": () => zoomBy(-0.1), " ": toggle };
+    ArrowDown: () => turn(0, 0.1), "+": () => zoomBy(0.1), "=": () => zoomBy(0.1), "-": () => zoomBy(-0.1), Home: reset, " ": toggle };
   canvas.addEventListener("keydown", (event) => {
     if (!(event.key in keys) || event.ctrlKey || event.altKey || event.metaKey) return;
     event.stopPropagation();
@@ -290,6 +314,11 @@ function showBlade(codes, gl) {
     keys[event.key]();
   });
   byId("play").addEventListener("click", toggle);
+  byId("reset").addEventListener("click", reset);
+  byId("png").addEventListener("click", () => {
+    paint(); // a picture is lost after its frame
+    canvas.toBlob((picture) => download("blade", "png", picture));
+  });
   byId("colour").addEventListener("input", () => { rescale(); show(); });
   for (const name of ["scale", "pace"]) byId(name).addEventListener("input", show);
   const bar = byId("bar").getContext("2d");

@@ -29,7 +29,7 @@ function numbers(codes, name, row) {
 
 const has = (name) => name in layout;
 const rows = (flat, width) => Array.from({ length: flat.length / width }, (_, i) => flat.slice(i * width, (i + 1) * width));
-const linear = (logs) => Array.from(logs, (value) => 10 ** value);
+const linear = (logs) => Array.from(logs, (value) => shown("length", 10 ** value));
 const range = (n, of) => Array.from({ length: n }, (_, i) => of(i));
 const largest = (values) => values.reduce((best, value) => (value > best ? value : best), -Infinity); // NaN is none
 
@@ -46,38 +46,75 @@ function notRecorded(name, title, key) {
 
 const axis = (text, more) => ({ title: { text, standoff: 8 }, ticks: "outside", linecolor: "#444", ...more });
 const decades = (low, high) => ({ type: "log", range: [low, high], tickvals: range(high - low + 1, (i) => 10 ** (low + i)),
-  ticktext: range(high - low + 1, (i) => `10<sup>${low + i}</sup>`) });
-const lineAt = (x) => ({ type: "line", x0: x, x1: x, yref: "paper", y0: 0, y1: 1, line: { width: 1.2, color: "#000" } });
-const SPEED = "Ω / f₁(0)";
+  ticktext: range(high - low + 1, (i) => plain(10 ** (low + i))) });
+const topDecade = (amplitude) => Math.ceil(Math.log10(shown("length", amplitude)));
+const speedAxis = () => axis(units.speed.name, { range: scaled("speed", RANGE) });
+const lineAt = (speed, look) => ({ type: "line", x0: shown("speed", speed), x1: shown("speed", speed), yref: "paper", y0: 0, y1: 1,
+  line: { width: 1.2, color: "#000", ...look } });
 
-const ALONG = "Amplitude of the tip along engine orders k";
+// The chosen speed and the operating speeds, as lines; of the latter also their names.
+const OPERATING = Object.entries(facts.operating || {}).map(([name, rpm], i) =>
+  ({ name: `${name} ${rpm.toFixed(0)} rpm`, speed: rpm / (60 * facts.f1_Hz), dash: ["dashdot", "dot"][i % 2] }));
+const lines = () => [lineAt(facts.speeds[chosen]),
+  ...OPERATING.map(({ speed, dash }) => lineAt(speed, { color: "#009E73", width: 2, dash }))];
+const lineNames = () => OPERATING.map(({ name, speed }) => ({ text: name, x: shown("speed", speed), yref: "paper", y: 1, yanchor: "top",
+  xanchor: "right", textangle: -90, showarrow: false, font: { size: 11, color: "#00664b" }, bgcolor: "rgba(255,255,255,0.7)" }));
+
+const CAMPBELL = "Campbell diagram, engine orders (EO)";
+const MODES = ["f₁", "f₂", "f₃", "f₄"];
+
+function drawCampbell() {
+  const { speeds, frequencies } = facts.campbell;
+  const top = largest([speeds[speeds.length - 1], ...OPERATING.map(({ speed }) => 1.03 * speed)]), highest = 1.08 * largest(frequencies.map(largest));
+  const orders = range(facts.orders[facts.orders.length - 1], (i) => i + 1);
+  const met = facts.crossings.map(([k, speed]) => ({ x: shown("speed", speed), y: shown("frequency", k * speed), k, speed }));
+  const traces = [
+    ...orders.map((k) => ({ x: scaled("speed", [0, top]), y: scaled("frequency", [0, k * top]), mode: "lines", name: `EO ${k}`,
+      hoverinfo: "skip", line: { color: "#808080", width: 0.8, dash: "dot" } })),
+    ...frequencies.map((of, mode) => ({ x: scaled("speed", speeds), y: scaled("frequency", of), mode: "lines", name: MODES[mode],
+      line: { color: COLOURS[1 + mode], dash: DASHES[(2 + mode) % DASHES.length], width: 2 } })),
+    { x: met.map(({ x }) => x), y: met.map(({ y }) => y), mode: "markers", name: "crossings of f₁", hoverinfo: "text",
+      text: met.map(({ k, speed }) => `EO ${k} meets f₁ at ${said("speed", speed)}`),
+      marker: { symbol: "square", size: 7, color: "#D55E00" } },
+  ];
+  const named = orders.map((k) => ({ text: `EO ${k}`, x: 1, xref: "paper", xanchor: "left", y: shown("frequency", k * top),
+    showarrow: false, font: { size: 10 } }));
+  return plot("campbell", traces, {
+    ...titled(CAMPBELL), xaxis: axis(units.speed.name, { range: [0, shown("speed", top)] }),
+    yaxis: axis(units.frequency.name, { range: [0, shown("frequency", highest)] }), margin: { ...MARGIN, r: 50 },
+    shapes: lines(), annotations: [...lineNames(), ...named, ...frequencies.map((of, mode) => ({ text: MODES[mode], x: 0, xanchor: "left",
+      y: shown("frequency", of[0]), yanchor: "bottom", showarrow: false, font: { color: COLOURS[1 + mode] } }))],
+  });
+}
+
+const ALONG = "Amplitude of the tip along engine orders (EO)";
 
 function drawOrders(codes) {
   if (!has("along")) return notRecorded("orders", ALONG, "record.spectrum_rounds in the scene");
   const along = rows(numbers(codes, "along"), facts.orders.length);
-  const [low, high] = [-3, Math.max(Math.ceil(largest(along.map(largest)) + 0.15), -2)];
+  const high = topDecade(1.4 * 10 ** Math.max(largest(along.map(largest)), -2)), low = high - 4;
   const mode = facts.speeds.length < FEW ? "lines+markers" : "lines";
   const traces = facts.orders.map((k, j) => ({
-    x: facts.speeds, y: along.map((values) => 10 ** values[j]), mode, name: `k = ${k}`,
+    x: scaled("speed", facts.speeds), y: linear(along.map((values) => values[j])), mode, name: `EO ${k}`,
     line: { dash: DASHES[j % DASHES.length], color: COLOURS[j % COLOURS.length], width: k === 4 || k === 6 ? 2.2 : 1.3 },
-    visible: drawnAtFirst(k),
+    visible: drawn.has(k),
   }));
   const failed = facts.speeds.filter((_, i) => !facts.has_result[i]);
   if (failed.length)
-    traces.push({ x: failed, y: failed.map(() => 10 ** (low + 0.1)), mode: "markers", name: "no result",
+    traces.push({ x: scaled("speed", failed), y: failed.map(() => 10 ** (low + 0.1)), mode: "markers", name: "no result",
       marker: { symbol: "x", size: 8, color: "#000" } });
   const marks = facts.peaks.map((peak) => ({
-    x: facts.speeds[peak.index], y: Math.log10(peak.amplitude), text: `k = ${peak.k}<br>${peakText(peak)}`,
-    hovertext: `${(facts.speeds[peak.index] / peak.crossing).toFixed(3)} of the linear crossing with f₁, ${peak.crossing.toFixed(3)}`,
+    x: shown("speed", facts.speeds[peak.index]), y: Math.log10(shown("length", peak.amplitude)), text: `EO ${peak.k}<br>${peakText(peak)}`,
+    hovertext: `${(facts.speeds[peak.index] / peak.crossing).toFixed(3)} of the linear crossing with f₁, ${said("speed", peak.crossing)}`,
     showarrow: true, arrowhead: 0, ax: 0, ay: -26 - 28 * above(peak), font: { size: 11 }, bgcolor: "rgba(255,255,255,0.7)",
   }));
   const narrow = byId("orders").clientWidth < 600;
   return plot("orders", traces, {
     ...titled(ALONG), showlegend: true, hovermode: "x", hoverdistance: -1, // a click anywhere chooses
-    xaxis: axis(SPEED, SPEEDS), yaxis: axis("‖Y‖ / gap", decades(low, high)), annotations: marks,
+    xaxis: speedAxis(), yaxis: axis(length("amplitude ‖Y‖"), decades(low, high)), annotations: [...lineNames(), ...marks],
     legend: narrow ? { orientation: "h", y: -0.3, itemclick: false, itemdoubleclick: false }
       : { x: 1.01, itemclick: false, itemdoubleclick: false },
-    margin: { ...MARGIN, r: narrow ? 12 : 90 }, shapes: [lineAt(facts.speeds[chosen])],
+    margin: { ...MARGIN, r: narrow ? 12 : 90 }, shapes: lines(),
   });
 }
 
@@ -90,15 +127,19 @@ function above(peak) { // neighbours at lower speeds that its label stands above
 }
 
 const drawnAtFirst = (k) => k === 2 || facts.peaks.some((peak) => peak.k === k);
-const peakText = (peak) => `${peak.at_end ? "≥ " : ""}${facts.speeds[peak.index].toFixed(3)}`;
+const drawn = new Set(facts.orders.filter(drawnAtFirst));
+const peakText = (peak) => `${peak.at_end ? "≥ " : ""}${said("speed", facts.speeds[peak.index])}`;
 
 function listOrders() { // which of them are drawn, with mouse or keyboard
   facts.orders.forEach((k, j) => {
-    const box = Object.assign(document.createElement("input"), { type: "checkbox", checked: drawnAtFirst(k) });
+    const box = Object.assign(document.createElement("input"), { type: "checkbox", checked: drawn.has(k) });
     const label = document.createElement("label");
     label.append(box, ` ${k}`);
     byId("drawn").append(label);
-    box.addEventListener("change", () => Plotly.restyle("orders", { visible: box.checked }, [j]));
+    box.addEventListener("change", () => {
+      drawn[box.checked ? "add" : "delete"](k);
+      Plotly.restyle("orders", { visible: box.checked }, [j]);
+    });
   });
 }
 
@@ -127,29 +168,33 @@ function edgesOf(speeds) {
     Math.min(i < last ? middle(i, i + 1) : 2 * speed - (last ? middle(last, last - 1) : speed - half), speed + half)]);
 }
 const EDGES = edgesOf(facts.speeds);
-const SPEEDS = { range: [EDGES[0], EDGES[EDGES.length - 1]] };
+const RANGE = [EDGES[0], EDGES[EDGES.length - 1]];
 
-const MAP = "Spectra, f₁(Ω), engine orders 2, 4, 6, 8";
+const MAP = "Spectra, f₁, EO 2, 4, 6, 8 (grey: none)";
 
 function drawMap(codes) {
   if (!has("spectrum")) return notRecorded("map", MAP, "record.spectrum_rounds in the scene");
   const cells = 300, highest = facts.highest;
   const z = onGrid(codes, cells, highest);
-  const high = Math.max(Math.ceil(largest(z.map(largest))), FLOOR);
   const spread = z.map((line) => line.flatMap((value, i) => (i < last ? [value, null] : [value]))); // none between
+  const high = topDecade(10 ** Math.max(largest(z.map(largest)), FLOOR)); // of the unit; z is over the gap
+  const ticks = range(4, (i) => high - 3 + i), ofGap = Math.log10(units.length.scale);
   const traces = [{
-    type: "heatmap", x: EDGES, y: range(cells, (i) => ((i + 0.5) * highest) / cells), z: spread, zmin: high - 3, zmax: high,
-    colorscale: MAGMA, hovertemplate: "Ω / f₁(0) = %{x:.3f}<br>f / f₁(0) = %{y:.2f}<br>10^%{z:.1f} gaps<extra></extra>",
-    colorbar: { title: { text: "amplitude / gap", side: "right" }, tickvals: [high - 3, high - 2, high - 1, high],
-      ticktext: [high - 3, high - 2, high - 1, high].map((n) => `10<sup>${n}</sup>`), thickness: 12 },
-  }, { x: facts.speeds, y: facts.f1, mode: "lines", line: { color: "#0072B2", width: 1.6 }, hoverinfo: "skip" }];
+    type: "heatmap", name: "spectra", x: scaled("speed", EDGES), y: range(cells, (i) => shown("frequency", ((i + 0.5) * highest) / cells)),
+    z: spread, zmin: high - 3 - ofGap, zmax: high - ofGap, meta: units.length.scale, colorscale: MAGMA,
+    text: spread.map((line) => line.map((value) => (value === null ? "" : said("length", 10 ** value)))),
+    hovertemplate: `${units.speed.name} %{x:.4~g}<br>${units.frequency.name} %{y:.3~g}<br>amplitude %{text}<extra></extra>`,
+    colorbar: { title: { text: length("amplitude"), side: "right" }, tickvals: ticks.map((n) => n - ofGap),
+      ticktext: ticks.map((n) => plain(10 ** n)), thickness: 12 },
+  }, { x: scaled("speed", facts.speeds), y: scaled("frequency", facts.f1), mode: "lines", name: "f₁", line: { color: "#0072B2", width: 1.6 },
+    hoverinfo: "skip" }];
   for (const k of [2, 4, 6, 8])
-    traces.push({ x: [0, facts.speeds[last]], y: [0, k * facts.speeds[last]], mode: "lines", hoverinfo: "skip",
-      line: { color: "#808080", width: 0.8, dash: "dot" } });
+    traces.push({ x: scaled("speed", [0, facts.speeds[last]]), y: scaled("frequency", [0, k * facts.speeds[last]]), mode: "lines",
+      name: `EO ${k}`, hoverinfo: "skip", line: { color: "#808080", width: 0.8, dash: "dot" } });
   return plot("map", traces, {
     ...titled(MAP),
-    xaxis: axis(SPEED, SPEEDS), yaxis: axis("f / f₁(0)", { range: [0, highest] }),
-    shapes: [lineAt(facts.speeds[chosen])], margin: { ...MARGIN, r: 90 },
+    xaxis: speedAxis(), yaxis: axis(units.frequency.name, { range: scaled("frequency", [0, highest]) }), plot_bgcolor: "#e0e0e0",
+    shapes: lines(), annotations: lineNames(), margin: { ...MARGIN, r: 90 },
   });
 }
 
@@ -157,16 +202,16 @@ function drawMap(codes) {
 const MAGMA = [[0, "#ffffff"], [0.004, "#fcfdbf"], [0.13, "#fec488"], [0.25, "#fc8961"], [0.38, "#e75263"], [0.5, "#b73779"],
   [0.63, "#832681"], [0.75, "#51127c"], [0.88, "#1d1147"], [1, "#000004"]];
 
-const SPECTRUM = "Spectrum of the last rounds";
+const SPECTRUM = "Spectrum of the last revolutions";
 
 function drawSpectrum(codes) {
   if (!has("spectrum")) return notRecorded("spectrum", SPECTRUM, "record.spectrum_rounds in the scene");
   const logs = numbers(codes, "spectrum", chosen);
   const orders = range(logs.length, (i) => i / facts.spectrum_rounds);
-  const high = Math.ceil(layout.spectrum.low + 65534 * layout.spectrum.step);
+  const high = topDecade(10 ** Math.max(layout.spectrum.low + 65534 * layout.spectrum.step, FLOOR));
   return plot("spectrum", [{ x: orders, y: linear(logs), mode: "lines", line: { color: "#000", width: 1 } }], {
     ...titled(SPECTRUM), xaxis: axis("engine order f / Ω", { range: [0, facts.highest / facts.speeds[chosen]] }),
-    yaxis: axis("amplitude / gap", decades(FLOOR, Math.max(high, FLOOR + 1))),
+    yaxis: axis(length("amplitude"), decades(high - 6, high)),
   });
 }
 
@@ -182,15 +227,15 @@ function drawWear(codes) {
   const worn = Array.from(numbers(codes, "worn", chosen));
   const degrees = range(worn.length, (i) => (360 * i) / worn.length);
   const inward = Array.from(numbers(codes, "inward"));
-  const profile = plot("profile", [{ x: degrees, y: worn, mode: "lines", fill: "tozeroy", line: { color: "#D55E00" } }], {
+  const profile = plot("profile", [{ x: degrees, y: scaled("length", worn), mode: "lines", fill: "tozeroy", line: { color: "#D55E00" } }], {
     ...titled(PROFILE), xaxis: axis("casing angle (deg)", { range: [0, 360], dtick: 45 }),
-    yaxis: axis("worn depth / gap", { rangemode: "tozero" }),
+    yaxis: axis(length("worn depth"), { rangemode: "tozero" }),
   });
   const closed = (values) => [...values, values[0]];
   const around = closed(degrees);
   const liner = (depth) => closed(inward.map((d, i) => CIRCLE + 1 - d + depth[i]));
   const deepest = layout.worn.low + 65534 * layout.worn.step;
-  const line = (r, name, look) => ({ type: "scatterpolar", theta: around, r, mode: "lines", name, line: look });
+  const line = (r, name, look) => ({ type: "scatterpolar", theta: around, r, mode: "lines", name, line: look, hoverinfo: "skip" });
   const polar = plot("polar", [
     line(around.map(() => CIRCLE), "undeformed tip", { color: "#0072B2", dash: "dashdot", width: 1.4 }),
     line(liner(inward.map(() => 0)), "liner, new", { color: "#808080", dash: "dash", width: 1.2 }),
@@ -203,7 +248,7 @@ function drawWear(codes) {
   return Promise.all([profile, polar]);
 }
 
-const HISTORY = "Displacement over the rounds: least and largest";
+const HISTORY = "Range of u_r at ξ = 1/16, whole run";
 
 function drawHistory(codes) {
   if (!has("history"))
@@ -211,11 +256,24 @@ function drawHistory(codes) {
   const flat = numbers(codes, "history", chosen);
   const windows = flat.length / 2;
   const rounds = range(windows, (i) => ((i + 0.5) * facts.rounds) / windows);
-  const edge = (which) => range(windows, (i) => flat[2 * i + which]);
+  const edge = (which) => range(windows, (i) => shown("length", flat[2 * i + which]));
   const line = { color: "#000", width: 1 };
-  return plot("history", [{ x: rounds, y: edge(0), mode: "lines", line },
-    { x: rounds, y: edge(1), mode: "lines", line, fill: "tonexty", fillcolor: "rgba(0,0,0,0.25)" }], {
-    ...titled(HISTORY), xaxis: axis("time (rounds)"), yaxis: axis("u_r / gap"),
+  return plot("history", [{ x: rounds, y: edge(0), mode: "lines", name: "least", line },
+    { x: rounds, y: edge(1), mode: "lines", name: "largest", line, fill: "tonexty", fillcolor: "rgba(0,0,0,0.25)" }], {
+    ...titled(HISTORY), xaxis: axis(`time (revolutions), least and largest of each 1/${Math.round(windows / facts.rounds)}`), yaxis: axis(length("u_r")),
+  });
+}
+
+const SIGNAL = "Signal u_r at ξ = 1/16, last revolution";
+
+function drawSignal(codes) {
+  if (!has("signal"))
+    return notRecorded("signal", SIGNAL, "name the scene under explore in the workflow's config.yaml");
+  const u = scaled("length", numbers(codes, "signal", chosen));
+  const at = range(u.length, (i) => i).filter((i) => !Number.isNaN(u[i])); // a state for each picture of the motion
+  const trace = { x: at.map((i) => facts.signal_time[i]), y: at.map((i) => u[i]), mode: "lines", line: { color: "#000", width: 1 } };
+  return plot("signal", [trace], {
+    ...titled(SIGNAL), xaxis: axis(`time (revolutions), ${at.length} states`), yaxis: axis(length("u_r")),
   });
 }
 
@@ -248,7 +306,7 @@ function showSpeed() {
   const speed = facts.speeds[chosen];
   const hertz = speed * facts.f1_Hz;
   const lobes = facts.lobes.length ? `, ${facts.lobes[chosen]} lobes` : "";
-  byId("at").textContent = `Ω / f₁(0) = ${speed.toFixed(4)}: ${hertz.toFixed(1)} Hz, ${(60 * hertz).toFixed(0)} rpm, ` +
+  byId("at").textContent = `${(60 * hertz).toFixed(0)} rpm, ${hertz.toFixed(1)} Hz, Ω / f₁(0) = ${speed.toFixed(4)}: ` +
     `${facts.status[chosen]}${lobes}`;
   byId("speed").value = chosen;
 }
@@ -259,9 +317,8 @@ async function choose(codes, index) {
   chosen = Math.max(0, Math.min(last, index));
   showSpeed();
   showNumbers();
-  const moved = { shapes: [lineAt(facts.speeds[chosen])] };
-  const maps = has("spectrum") ? [Plotly.relayout("orders", moved), Plotly.relayout("map", moved)] : [];
-  const drawn = [...maps, drawSpectrum(codes), drawWear(codes), drawHistory(codes)];
+  const maps = ["campbell", ...(has("spectrum") ? ["orders", "map"] : [])].map((name) => Plotly.relayout(name, { shapes: lines() }));
+  const drawn = [...maps, drawSpectrum(codes), drawWear(codes), drawHistory(codes), drawSignal(codes)];
   listeners.forEach((listen) => listen(chosen));
   await Promise.all(drawn);
   document.body.dataset.shown = chosen; // for tests
@@ -280,8 +337,13 @@ function toPeak(way) {
 function listen(codes) {
   byId("speed").max = last;
   byId("speed").addEventListener("input", (event) => choose(codes, Number(event.target.value)));
-  for (const name of ["orders", "map"])
-    byId(name).on("plotly_click", (event) => choose(codes, nearest(event.points[0].x)));
+  for (const name of ["campbell", "orders", "map"])
+    byId(name).on("plotly_click", (event) => choose(codes, nearest(event.points[0].x / units.speed.scale)));
+  byId("units").addEventListener("input", async (event) => {
+    units = UNITS[event.target.value];
+    await drawAll(codes);
+    await choose(codes, chosen);
+  });
   document.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.altKey || event.metaKey || ["INPUT", "SELECT"].includes(event.target.tagName)) return;
     const way = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
@@ -291,20 +353,24 @@ function listen(codes) {
   });
 }
 
+const drawAll = (codes) => Promise.all([drawCampbell(), drawOrders(codes), drawMap(codes)]);
+
 async function start() {
   const script = document.createElement("script");
   script.textContent = new TextDecoder().decode(await inflated(page.plotly));
   document.head.append(script);
   const codes = new Uint16Array(await inflated(page.codes));
   byId("about").textContent = `Blade ${facts.blade}, scene ${facts.scene}: ${facts.label}. f₁(0) = ` +
-    `${facts.f1_Hz.toFixed(2)} Hz, gap ${facts.gap_um.toFixed(1)} µm, ${facts.speeds.length} speeds of ${facts.rounds} rounds.`;
+    `${facts.f1_Hz.toFixed(2)} Hz, gap ${facts.gap_um.toFixed(1)} µm, ${facts.speeds.length} speeds of ${facts.rounds} revolutions.`;
   byId("meanings").textContent = facts.meanings;
   const first = facts.peaks.length ? facts.peaks[0].index : 0;
   chosen = first;
+  byId("units").value = facts.norms ? "norms" : "engine";
   listOrders();
   showAnswers(codes);
-  await Promise.all([drawOrders(codes), drawMap(codes)]);
+  await drawAll(codes);
   listen(codes);
+  offerFiles();
   startBlade(codes);
   await choose(codes, first);
   document.body.dataset.ready = "yes";

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from workflow.explore.results import Arrays
 
 HERE = Path(__file__).parent
-SCRIPTS = ("page.js", "blade.js")
+SCRIPTS = ("page.js", "units.js", "save.js", "blade.js")
 MISSING = 65535  # where a number is not finite
 LARGEST = 65534
 

@@ -1,18 +1,22 @@
 """What the page shows of a sweep: facts as plain values, and arrays over the speeds."""
 
 from collections.abc import Iterable
-from math import isinf, isnan
+from math import isfinite, isinf, isnan
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from simulate.errors.signals import leading_gap, lobe_count
+from simulate.scene import LEADING
 from simulate.sweeps import peak
-from simulate.sweeps.peak import along_order
+from simulate.sweeps.peak import along_order, crossing
+from workflow.figures.marks import frequencies_over_speed
 from workflow.figures.response import Response
+from workflow.figures.units import NORMS
 
 ORDERS = (2, *peak.ORDERS)  # engine orders of the critical-speed diagram
+MODES = 4  # natural frequencies of the Campbell diagram
 HIGHEST = 2.5  # f / f1(0) of spectra
 FLOOR = 1e-6  # gaps, least amplitude on a logarithmic scale
 ANGLES, COARSE = 720, 180  # around the casing: of profiles, and of the liner's surface
@@ -25,7 +29,8 @@ def arrays(response: Response) -> Arrays:
 
     along (speeds, orders); spectrum (speeds, bins); worn (speeds, angles) of the leading eighth;
     liner (speeds, strips, coarse angles); history (speeds, windows, 2), its range; inward (angles),
-    the casing's distortion, of harmonics that travel at the start. Only what the sweep holds.
+    the casing's distortion, of harmonics that travel at the start; signal (speeds, times), u_r at
+    xi = 1/16 in the last revolution. Only what the sweep holds.
     """
     sweep, gap = response.sweep, leading_gap(response.sweep)
     theta = np.arange(ANGLES) * 2 * np.pi / ANGLES
@@ -38,6 +43,8 @@ def arrays(response: Response) -> Arrays:
         found["spectrum"] = log10(response.spectrum[:, : shown_bins(response)])
     if "envelope" in sweep:
         found["history"] = sweep["envelope"].values / gap
+    if "motion" in sweep:
+        found["signal"] = sweep["motion"].values @ response.rom.rows(np.array([LEADING]))[0] / gap
     return found
 
 
@@ -59,12 +66,18 @@ def shown_bins(response: Response) -> int:
 
 
 def facts(response: Response, blade: str, scene: str) -> dict[str, Any]:
-    """Names, units, and values of each speed, as plain values."""
-    sweep = response.sweep
+    """Names, units, natural frequencies, and values of each speed, as plain values."""
+    sweep, rom = response.sweep, response.rom
+    speeds, frequencies = frequencies_over_speed(rom, MODES)
+    crossings = {k: crossing(rom, k) for k in ORDERS}
     return {
         "blade": blade,
         "scene": scene,
         "label": response.label.replace("$", "").replace("\\sigma_Y", "σ_Y").replace("\n", " "),
+        "norms": response.units[0] == NORMS,
+        "campbell": {"speeds": speeds.tolist(), "frequencies": frequencies.T.tolist()},
+        "crossings": [(k, speed) for k, speed in crossings.items() if isfinite(speed)],
+        "signal_time": sweep["motion_time"].values.tolist() if "motion" in sweep else [],
         "f1_Hz": sweep.attrs["f1_Hz"],
         "gap_um": 1e6 * leading_gap(sweep),
         "rounds": response.scene.rounds,

@@ -37,6 +37,7 @@ def write(
         "largest_Pa": largest,
     }
     told = panel(read_json(answers), operating, of)
-    shown = facts(response, names["blade"], names["scene"]) | {"motion": motion, "answers": told}
+    more = {"motion": motion, "answers": told, "operating": operating}
+    shown = facts(response, names["blade"], names["scene"]) | more
     write_whole(page.html(shown, arrays(response) | of_blade), html)
     write_json(of, stress)

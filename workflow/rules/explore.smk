@@ -2,7 +2,8 @@ rule explore:
     input:
         code=code_of("workflow.jobs.explore"),
         parts=own_files(
-            f"workflow/explore/{name}" for name in ("blade.js", "page.css", "page.html", "page.js")
+            f"workflow/explore/{name}"
+            for name in ("blade.js", "page.css", "page.html", "page.js", "save.js", "units.js")
         ),
         mesh="results/{blade}/blade.msh",
         rom=rom_of_scene,
