@@ -1,11 +1,12 @@
 """Numbers in text, with their uncertainty, and Markdown tables of them."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from math import isfinite, isnan
+from math import floor, isfinite, isnan, log10
 from typing import NamedTuple
 
 LEAST = 1e-4  # smaller uncertainties and changes, relative, are not told apart
-NOT_KNOWN = "?"
+NOT_KNOWN = "(no ±)"  # without any uncertainty
+DIGITS = 3  # of a value, where its uncertainty allows as many
 
 
 def table(head: Sequence[object], rows: Iterable[Iterable[object]]) -> str:
@@ -39,17 +40,31 @@ def records(rows: Sequence[Mapping[str, object]]) -> str:
 class Number(NamedTuple):
     """A value, and its uncertainty in the same unit if there is one.
 
-    >>> print(Number(1.2345, 0.031), Number(1234.5), Number(0.5, 0.031).share)
-    1.23 ± 0.03 1234 ±6.2%
+    ``least``: the uncertainty may be larger, since some of its parts are not known.
+
+    >>> print(Number(1.2345, 0.031), Number(17.12, 3.4), Number(1234.5))
+    1.23 ± 0.03 17 ± 3 1234
+    >>> Number(0.5, 0.031).share, Number(0.5, 0.031, least=True).share
+    ('±6.2%', '≥6.2%')
     """
 
     value: float
     error: float | None = None
+    least: bool = False
 
     def __str__(self) -> str:
-        """Three digits of the value, and one of its uncertainty."""
-        shown = f"{self.value:.3g}" if abs(self.value) < 1000 else f"{self.value:.0f}"
-        return shown if self.error is None else f"{shown} ± {self.error:.1g}"
+        """The digits of the value that its uncertainty allows, and one of that."""
+        return self.shown if self.error is None else f"{self.shown} ± {self.error:.1g}"
+
+    @property
+    def shown(self) -> str:
+        """The value alone, to the first digit of its uncertainty, three digits at most."""
+        digits = DIGITS
+        if self.error and self.value and isfinite(self.error):
+            first, last = (floor(log10(abs(of))) for of in (self.value, self.error))
+            digits = min(max(first - last + 1, 1), DIGITS)
+        value = rounded(self.value, digits) if digits < DIGITS else self.value
+        return f"{value:.{DIGITS}g}" if abs(value) < 1000 else f"{value:.0f}"
 
     @property
     def share(self) -> str:
@@ -58,7 +73,8 @@ class Number(NamedTuple):
             return NOT_KNOWN
         if self.value == 0:
             return ""
-        return f"±{two_digits(100 * max(self.error / abs(self.value), LEAST))}%"
+        sign = "≥" if self.least else "±"
+        return f"{sign}{two_digits(100 * max(self.error / abs(self.value), LEAST))}%"
 
 
 def rounded(value: float, digits: int) -> float:

@@ -10,10 +10,12 @@ from typing import Any, NamedTuple
 
 from geometry.project import csv_text, read_json
 from simulate.errors.neighbour import CHAOTIC, ONE_MOTION, TWO_MOTIONS
+from simulate.marching.trend import DYING_OUT, GROWING, TRENDS
 from workflow import markdown
 from workflow.markdown import Number
 
 RPM_PER_HZ = 60.0
+ALL = "all"  # numbers of a peak
 
 
 class Column(NamedTuple):
@@ -24,13 +26,18 @@ class Column(NamedTuple):
     scale: float  # of the unit, from SI
     head: str  # in tables
 
+    def number(self, value: float, error: float | None = None, least: bool = False) -> Number:
+        """The number in its unit."""
+        return Number(self.scale * value, error and self.scale * error, least)
+
     def shown(self, numbers: Mapping[str, float]) -> str:
         """The number in its unit; a dash where it is not known."""
-        return str(Number(self.scale * numbers[self.name])) if self.name in numbers else "-"
+        return self.number(numbers[self.name]).shown if self.name in numbers else "-"
 
 
 COLUMNS = (  # of the numbers of ``sweeps.peak_results``
     Column("amplitude", "um", 1e6, "amplitude µm"),
+    Column("displacement", "um", 1e6, "largest µm"),
     Column("wear", "um", 1e6, "wear µm"),
     Column("worn_volume", "mm3", 1e9, "worn mm³"),
     Column("opening", "um", 1e6, "opening µm"),
@@ -39,27 +46,45 @@ COLUMNS = (  # of the numbers of ``sweeps.peak_results``
     Column("torque", "N m", 1.0, "torque N m"),
     Column("stress", "MPa", 1e-6, "stress MPa"),
 )
-MEANING = (
-    "Amplitude: of the tip's radial displacement at ξ = 1/16, along the engine order k. Wear: "
-    "deepest, mean over the leading eighth of the chord. Opening: worn volume over the area that "
-    "the tip sweeps. Force: mean normal force on the chord over the rounds; peak force: the "
-    "largest on an eighth of the chord. Torque: mean of the rounds, against the rotation. Stress: "
-    "largest von Mises stress away from clamp and contact, of a recorded state, ± what single "
-    "elements differ from their mean at nodes, else of the last round as the scene's page shows "
-    "it. ± is the root of the squares of what a twin (gaps changed by 1e-10), models with "
-    "frequencies off by their known errors, a model with half the patches, and a run with twice "
-    "the steps, rods and strips change (the last two not with central differences, on points, or "
-    "where a run goes on from another), and, of the amplitude, of what a resonance between two "
-    "speeds of the sweep may be higher by; for the speed, the spacing of the sweep and these "
-    "errors of the frequencies, not what step, strips and patches shift. {one}: none of these "
-    "leads to another motion; {two}: the last digits of the model choose between two motions, the "
-    "second number is that of the other; {none}: the gaps' tenth digit changes the numbers by over "
-    "1 %."
-)
+MEANING = {  # of the columns
+    "amplitude": "of the tip's radial displacement at ξ = 1/16, along the engine order k, over the "
+    "last revolutions of the run",
+    "largest": "largest |u_r| there in the whole run, and the revolution of it",
+    "wear": "deepest, mean over the leading eighth of the chord",
+    "opening": "worn volume over the area that the tip sweeps",
+    "force": "mean normal force on the chord over the revolutions; peak force: the largest on an "
+    "eighth of the chord",
+    "torque": "mean of the revolutions, against the rotation",
+    "stress": "largest von Mises stress away from clamp and contact, of a recorded state, ± what "
+    "single elements differ from their mean at nodes, else of the last revolution as the scene's "
+    "page shows it",
+    "±": "root of the sum of squares of what these change: a twin (gaps changed by 1e-10), models "
+    "with frequencies off by their known errors, a model with half the patches, a run with twice "
+    "the steps, rods and strips (the last two not with central differences, on points, or where a "
+    "run goes on from another); for the amplitude also what a resonance between two speeds of the "
+    "sweep may be higher by; for the speed the spacing of the sweep and the errors of the "
+    "frequencies, not what step, strips and patches shift",
+    "≥": "as ±, but some of these are not known",
+    "at the end": f"whether the motion is {', '.join(TRENDS)}, by the range of u_r of each "
+    "revolution; τ, the time constant of the mode that responds; the volume worn in a revolution "
+    "of the last quarter of the run",
+    ONE_MOTION: "none of the second runs leads to another motion",
+    TWO_MOTIONS: "the last digits of the model choose between two motions, the second number is "
+    "that of the other",
+    CHAOTIC: "the gaps' tenth digit changes the numbers by over 1 %",
+}
+PARTS = {  # of uncertainties, that may not be known
+    "model": "error of the model",
+    "mesh": "error of the mesh",
+    "fineness": "error of step, strips and patches (no run of other fineness)",
+    "speeds": "amplitude between the speeds of the sweep (peaks: adds speeds)",
+}
 
 # What is told of a scene as its answers have it.
 TOLD = ("scene", "blade", "f1_Hz", "gap_m", "dofs", "crossings", "status", "reasons", "ends")
 TOLD += ("doubt", "no_torque", "mu_crit", "sweep_s")
+
+COURSE = ("trend", "time_constant", "largest_round", "wears")  # of ``dataset.course``
 
 type Row = dict[str, Any]
 type Stress = dict[float, tuple[float, float | None]]  # by speed over f1(0): largest, its error, Pa
@@ -89,13 +114,10 @@ def numbers(files: Any, operating: Mapping[str, Mapping[str, float]]) -> dict[st
 
 def _scene(of: Mapping[str, Any], stress: Stress, lines: Mapping[str, float]) -> dict[str, Any]:
     rows = [_row(of, answer, stress) for answer in of["peaks"]]
-    tried = [answer["parts"] for answer in of["peaks"] if answer["parts"]]
     return {
         **{key: of[key] for key in TOLD},
         "answers_s": sum(answer["seconds"] for answer in of["peaks"]),
         "runs": sum(answer["runs"] for answer in of["peaks"]),
-        "fineness": all({"finer", "companion"} & {*parts} for parts in tried),
-        "speeds": all(parts.get("speeds", {}).get("amplitude", 0.0) is not None for parts in tried),
         "rows": rows,
         "lines": [_line(name, rpm, rows) for name, rpm in lines.items()],
     }
@@ -121,6 +143,8 @@ def _row(of: Mapping[str, Any], answer: Mapping[str, Any], stress: Stress) -> Ro
         "status": answer["status"],
         "word": answer["verdict"] or answer["status"],
         "lobes": answer["lobes"],
+        "course": answer["course"],
+        "unknown": _unknown(of["doubt"], answer["parts"]),
         "over_gap": {
             "amplitude": answer["amplitude"],
             "wear": (wear := values.get("wear")) and wear / of["gap_m"],
@@ -129,6 +153,21 @@ def _row(of: Mapping[str, Any], answer: Mapping[str, Any], stress: Stress) -> Ro
         "errors": errors,
         "other": answer["other"],
     }
+
+
+def _unknown(doubt: Mapping[str, float | None], parts: Mapping[str, Any]) -> dict[str, list[str]]:
+    """Parts of the uncertainty that are not known: those of ``ALL`` numbers, and of the amplitude.
+
+    ``parts``: relative changes by second run.
+    """
+    of_all = {
+        "model": doubt["basis"] is not None,
+        "mesh": doubt["mesh"] is not None,
+        "fineness": bool({"finer", "companion"} & {*parts}),
+    }
+    between = parts.get("speeds", {}).get("amplitude", 0.0) is not None
+    missing = [name for name, known in of_all.items() if not known]
+    return {ALL: missing, "amplitude": [] if between else ["speeds"]}
 
 
 def _speed_error(of: Mapping[str, Any], answer: Mapping[str, Any]) -> float | None:
@@ -187,8 +226,8 @@ def table(summary: Mapping[str, Any]) -> str:
 
 
 def meaning() -> str:
-    """What the numbers and the words of the rows are."""
-    return MEANING.format(one=ONE_MOTION.capitalize(), two=TWO_MOTIONS, none=CHAOTIC)
+    """What the columns and the words of the rows are, as a list."""
+    return "\n".join(f"- {name}: {text}." for name, text in MEANING.items())
 
 
 def known(peaks: Iterable[Mapping[str, float]]) -> list[Column]:
@@ -235,7 +274,7 @@ def columns(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
 def shown(scene: Mapping[str, Any]) -> tuple[list[str], list[list[str]]]:
     """Heads and cells of a scene's table; columns without any number are left out."""
     kept = known(row["values"] for row in scene["rows"])
-    heads = ["k", "rpm", "Ω / f₁(0)", "Hz", *(column.head for column in kept), ""]
+    heads = ["k", "rpm", "Ω / f₁(0)", "Hz", *(column.head for column in kept), "at the end", ""]
     return heads, [
         [
             str(row["k"] or "-"),
@@ -243,6 +282,7 @@ def shown(scene: Mapping[str, Any]) -> tuple[list[str], list[list[str]]]:
             f"{row['over_f1']:.3f}",
             f"{row['hz']:.1f}" if row["hz"] else "-",
             *(_cell(row, column) for column in kept),
+            _at_end(row),
             row["word"],
         ]
         for row in scene["rows"]
@@ -256,12 +296,39 @@ def _speed(row: Row) -> str:
 
 
 def _cell(row: Row, column: Column) -> str:
-    """The number, that of another motion, and the uncertainty in percent."""
+    """The number, that of another motion, its uncertainty in percent, and whether it goes on."""
     value, error, other = (row[of].get(column.name) for of in ("values", "errors", "other"))
     if value is None:
         return "-"
-    further = "" if other is None else f" or {column.shown(row['other'])}"
-    return f"{column.shown(row['values'])}{further} {Number(value, error).share}".rstrip()
+    number = column.number(value, error, least=_in_part(row, column.name))
+    further = "" if other is None else f" or {column.number(other, error).shown}"
+    goes_on = f", {row['course']['trend']}" if column.name == "amplitude" and moves(row) else ""
+    revolution = row["course"].get("largest_round") if column.name == "displacement" else None
+    at = f" (rev. {revolution:.0f})" if revolution else ""
+    return f"{number.shown}{further} {number.share}{goes_on}".rstrip() + at
+
+
+def _in_part(row: Row, name: str) -> bool:
+    """Whether parts of the uncertainty of a number are not known, others are."""
+    return name != "stress" and any(
+        row["unknown"][of] for of in (ALL, name) if of in row["unknown"]
+    )
+
+
+def moves(row: Row) -> bool:
+    """Whether the motion still grows or dies out at the end of the run."""
+    return row["course"].get("trend") in (GROWING, DYING_OUT)
+
+
+def _at_end(row: Row) -> str:
+    """Whether the motion is steady, the time constant by which, and what is still worn."""
+    course = row["course"]
+    if not course:
+        return "-"
+    wears = Number(1e9 * course["wears"]).shown
+    tau = course["time_constant"]
+    known = f"τ {Number(tau).shown} rev." if tau and isfinite(tau) else "no damping"
+    return f"{course['trend']}; {known}; {wears} mm³/rev."
 
 
 def about(scene: Mapping[str, Any]) -> str:
@@ -280,17 +347,15 @@ def about(scene: Mapping[str, Any]) -> str:
 def notes(scene: Mapping[str, Any]) -> list[str]:
     """Crossings, ends of the sweep, operating lines, what is not known, and what that cost."""
     lines = [*at_speeds(scene), *map(_of_line, scene["lines"])]
-    known = {name for row in scene["rows"] for name in row["values"]}
-    known_or_not = {
-        "error of the model": scene["doubt"]["basis"] is not None,
-        "error of the mesh": scene["doubt"]["mesh"] is not None,
-        "error of step, strips and patches (no run of other fineness)": scene["fineness"],
-        "amplitude between the speeds of the sweep (peaks: adds speeds)": scene["speeds"],
-        "stress (explore, record.states_rounds)": "stress" in known,
-        f"torque ({scene['no_torque']})": "force" not in known or not scene["no_torque"],
-    }
-    if unknown := [name for name, is_known in known_or_not.items() if not is_known]:
-        lines.append(f"Not known: {', '.join(unknown)}.")
+    numbers = {name for row in scene["rows"] for name in row["values"]}
+    missing = {part for row in scene["rows"] for parts in row["unknown"].values() for part in parts}
+    told = [PARTS[part] for part in PARTS if part in missing]
+    if "stress" not in numbers:
+        told.append("stress (explore, record.states_rounds)")
+    if "force" in numbers and scene["no_torque"]:
+        told.append(f"torque ({scene['no_torque']})")
+    if told:
+        lines.append(f"Not known: {', '.join(told)}.")
     if scene["mu_crit"]:
         lines.append(f"Friction locks the tip from {scene['mu_crit']:.3f} on.")
     cost = f"{scene['runs']} runs, {scene['answers_s']:.1f} s of CPU time"
@@ -354,6 +419,8 @@ def _record(scene: Mapping[str, Any], row: Row) -> dict[str, Any]:
         "engine order": row["k"],
         "status": row["status"],
         "word": row["word"],
+        **{name: row["course"].get(name) for name in COURSE},
+        "not known of +-": " ".join(part for parts in row["unknown"].values() for part in parts),
         "speed (rpm)": _digits(row["rpm"]),
         "speed +- (rpm)": _digits(row["rpm_error"]),
         "speed over f1(0)": _digits(row["over_f1"]),

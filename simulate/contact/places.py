@@ -26,6 +26,17 @@ class Places:
     theta: NDArray[np.float64]  # (m,), rad
     width: NDArray[np.float64]  # (m,), m, axial; their sum is the axial length of the tip
 
+    def volume(self, depth: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Volume (...,), m3, of depths (..., m), m, that are the same all around the casing."""
+        return volume_of(depth, self.width, self.radius)
+
+
+def volume_of(
+    depth: NDArray[np.float64], width: NDArray[np.float64], radius: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Volume (...,), m3, of depths (..., m) over strips of ``width``, at ``radius`` (m,); in m."""
+    return 2 * np.pi * depth @ (width * radius)
+
 
 def strip_places(rom: Rom, strips: int) -> Places:
     """Places of ``strips`` equal strips; on an interface of points, one strip per point."""

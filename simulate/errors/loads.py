@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from geometry.hats import middles
 from rom.model import Rom
+from simulate.contact.places import volume_of
 from simulate.marching import Outcome
 from simulate.scene import Scene
 
@@ -62,7 +63,7 @@ def worn_volume(
     >>> round(float(worn_volume(wear, np.array([0.02, 0.01]), np.array([0.5, 0.5]))), 12)
     9.425e-06
     """
-    return FULL_TURN * wear.mean(axis=-1, dtype=float) @ (width * radius)
+    return volume_of(wear.mean(axis=-1, dtype=float), width, radius)
 
 
 def mean_opening(

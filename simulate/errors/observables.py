@@ -5,7 +5,7 @@ Numbers are single values: those of peaks, of the tables of designs and of studi
 """
 
 from collections.abc import Iterable
-from math import inf, nan
+from math import inf, isfinite, nan
 
 import numpy as np
 from numpy.linalg import norm
@@ -26,6 +26,7 @@ type Numbers = dict[str, float]
 
 NUMBERS = {  # of a run: unit, meaning
     "amplitude": ("m", "amplitude of u_r at xi = 1/16: along an engine order, or largest"),
+    "displacement": ("m", "largest |u_r| at xi = 1/16 of all rounds"),
     "wear": ("m", "deepest wear of the leading eighth of the chord (its mean)"),
     "wear_mean": ("m", "wear there, mean around the casing"),
     "wear_anywhere": ("m", "deepest wear of all rods"),
@@ -128,6 +129,8 @@ def numbers(run: Run, k: int | None = None) -> Numbers:
     if record.spectrum_rounds and outcome.status in WITH_RESULT:
         bins = last_spectrum(run)
         found["amplitude"] = float(amplitude(bins, record.spectrum_rounds, k))
+    if isfinite(largest := outcome.each.largest[0]):
+        found["displacement"] = largest
     wear = outcome.wear.astype(np.float32)
     where = wear, run.setup.places.width, run.setup.places.radius
     profile = by_share(wear, outcome.ends)[0]

@@ -54,6 +54,13 @@ class Run(Case):
     errors: dict[str, float] = field(default_factory=dict)  # relative, by observable; where known
     seconds: float = 0.0  # wall time of the march and of those beside it
 
+    def beside(self, other: Neighbour) -> Case:
+        """As of a case, for as many rounds as the run took."""
+        if self.scene.until is None:
+            return super().beside(other)
+        scene = self.scene.but(until=None, rounds=round(self.outcome.rounds))
+        return Case(scene, self.rom, self.setup, self.left).beside(other)
+
     @property
     def largest_error(self) -> float:
         """Largest error of all observables; inf where run and companion end differently."""

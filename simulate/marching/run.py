@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from math import inf
 from time import perf_counter
 from typing import Any
 
@@ -20,6 +21,7 @@ from simulate.marching.modal import TURNS, padded_rows, rows_of
 from simulate.marching.setup import Setup, compiling, strip_stiffness
 from simulate.marching.start import Left, Worn, begin, left_by
 from simulate.marching.status import WITH_RESULT, Facts, judge, why_no_contact
+from simulate.marching.trend import STEADY, TOO_SHORT, Rounds, time_constant
 from simulate.scene import Record, Scene
 
 SCHEMES = {"central-difference": central_difference, "piecewise-exact": piecewise_exact}
@@ -46,6 +48,9 @@ class Outcome:
     force_tangential_mean: NDArray[np.float64]  # (rounds, shares), against the rotation
     casing_work: NDArray[np.float64]  # (rounds marched,), J, of the casing on the rods
     contact_share: float  # steps with contact over all steps
+    each: Rounds  # what every round shows
+    time_constant: float = inf  # rounds, of the mode that responds in the last round
+    trend: str = TOO_SHORT  # whether the motion is steady
     left: Left | None = None  # what the next march goes on from, where it is asked for
     reason: str = ""  # of a run without contact: why the tip did not touch
 
@@ -74,7 +79,8 @@ def _start(
     scene: Scene, setup: Setup
 ) -> tuple[list[NDArray[np.float64]], Callable, Callable[..., tuple[Any, ...]]]:
     """Room for the outputs, the kernel, and its arguments: a blade at rest over an unworn liner."""
-    strips, zeta, rounds = setup.strips, scene.damping_ratio, scene.rounds
+    strips, zeta = setup.strips, scene.damping_ratio
+    rounds, until = scene.rounds, scene.until
     rows = rows_of(setup.Phi_b, setup.Phi_t)
     scheme = SCHEMES[scene.integrator.scheme].coefficients(setup.omega, rows, zeta, setup.h)
     if (mu := scene.contact.friction) is not None:
@@ -86,8 +92,7 @@ def _start(
 
     def arguments(done: int, before: int = 0) -> tuple[Any, ...]:
         """Of the kernel in round ``done``, from 0, after rounds ``before`` of another march."""
-        # Rounds before those that are kept share the first row, which is overwritten.
-        rows = [array[max(0, done - rounds + len(array))] for array in kept]
+        rows = [array[_row(done, len(array) - 1, rounds, until)] for array in kept]
         recorded = Recorded(*rows, Phi_out, weights)
         return scheme, strips, state, recorded, ramp, setup.bound, before + done, setup.steps
 
@@ -116,11 +121,20 @@ def march(scene: Scene, setup: Setup, left: Left | Worn | None = None) -> Outcom
         begin(state, left, scheme, SCHEMES[scene.integrator.scheme], setup, scene.damping_ratio)
     before = _stored(scene, setup, state, first * steps)
     contacts, done, end, worked = 0, 0, RUNNING, [0.0]
-    while done < scene.rounds and end == RUNNING:
-        touched, step, end, node = kernel(*arguments(done, first))
+    each, changing = Rounds.room(scene.rounds, _worn(setup, state)), scene.casing.changes_until
+    word, tau = TOO_SHORT, inf
+    while done < scene.rounds and end == RUNNING and not (word == STEADY and scene.stops_at(done)):
+        of_kernel = arguments(done, first)
+        touched, step, end, node = kernel(*of_kernel)
         contacts += touched
         worked.append(float(state.energies[CASING]))
+        samples = of_kernel[3].samples[:, 0]
+        if end == RUNNING:
+            each.add(done, samples, _worn(setup, state))
         done += 1
+        if scene.until or done == scene.rounds:
+            tau = time_constant(samples, setup.omega, setup.Omega, scene.damping_ratio)
+            word = each.trend(max(changing - first, 0), done, tau)
     marched = (done - 1) * steps + step
     taken = np.full((scene.rounds, 1), steps)
     taken[done - 1] = step
@@ -136,7 +150,7 @@ def march(scene: Scene, setup: Setup, left: Left | Worn | None = None) -> Outcom
     status = judge(facts)
     to_the_end, wanted = status in WITH_RESULT, scene.record.end or scene.speeds.in_turn
     at = (np.nan, np.nan) if to_the_end else _place(setup, state, end, node, step, total)
-    u_r, forces, states = (array[1:] for array in kept)
+    u_r, forces, states = (_in_order(array[1:], done, scene.until) for array in kept)
     return Outcome(
         status=status,
         rounds=marched / steps,
@@ -152,11 +166,36 @@ def march(scene: Scene, setup: Setup, left: Left | Worn | None = None) -> Outcom
         force_tangential_mean=forces[:, 2] / taken,
         casing_work=np.diff(worked),
         contact_share=contacts / marched,
+        each=each,
+        time_constant=tau,
+        trend=word,
         left=left_by(state, setup, first + done) if wanted and end == RUNNING else None,
         reason=why_no_contact(scene, strips, state.eps_p, first + done)
         if status == "no-contact"
         else "",
     )
+
+
+def _row(done: int, kept: int, rounds: int, until: str | None) -> int:
+    """Row of ``_room`` for round ``done``, from 0, of ``rounds``, the last of which are kept.
+
+    Those that are not kept share the first row, which is overwritten. Where the last round is not
+    known beforehand all take turns in the rows that are kept.
+    """
+    if until and kept:
+        return 1 + done % kept
+    return max(0, done - rounds + kept + 1)
+
+
+def _in_order(kept: NDArray[np.float64], done: int, until: str | None) -> NDArray[np.float64]:
+    """Rounds ``kept`` (kept, ...) of which ``done`` were marched, the last one last."""
+    return np.roll(kept, -done, axis=0) if until and 0 < len(kept) < done else kept
+
+
+def _worn(setup: Setup, state: State) -> float:
+    """Volume worn off the liner, m3."""
+    depth = setup.strips.thickness * state.eps_p.mean(axis=1)
+    return float(setup.places.volume(depth))
 
 
 def _stored(scene: Scene, setup: Setup, state: State, steps: int) -> tuple[float, float]:

@@ -1,6 +1,6 @@
 """Casing of a scene: the gap that it leaves, and its distortion over the angle and over time."""
 
-from math import radians
+from math import ceil, radians
 from typing import Annotated, ClassVar, Literal
 
 import numpy as np
@@ -158,6 +158,11 @@ class Casing(Settings):
     def at_start(self) -> float:
         """Share of the distortion at the start."""
         return self.ramp.factor[0] if self.ramp else float(self.ramp_rounds == 0)
+
+    @property
+    def changes_until(self) -> int:
+        """Round, from 0, at whose start the share of the distortion has taken its last value."""
+        return ceil(self.ramp.rounds[-1] if self.ramp else self.ramp_rounds)
 
     @property
     def travelling(self) -> list[Harmonic]:

@@ -1,7 +1,7 @@
 """Settings of a scene file: everything that a run depends on; keys end in their unit."""
 
 from itertools import product
-from typing import Any, ClassVar, Self
+from typing import Any, ClassVar, Literal, Self
 
 import numpy as np
 from pydantic import Field
@@ -38,6 +38,7 @@ NOT_ESTIMATED = (
     "accuracy, whose errors are not estimated with it (give integrator, liner.rods_per_round and "
     "liner.strips instead)"
 )
+OF_LAST_ROUNDS = ("history", "states_rounds", "motion")  # of the record, over time
 EXCLUDED = [  # keys of which a scene has one at most, named by the first
     ("start", "accuracy"),
     ("start", "design"),
@@ -46,6 +47,7 @@ EXCLUDED = [  # keys of which a scene has one at most, named by the first
     ("speeds.in_turn", "peaks"),  # a run goes on from the one before, not from one added between
     *product(("speeds.in_turn", "start.speed_over_f1"), (AT_REST, TRAVELLING)),
     ("contact.friction", NOT_ESTIMATED),
+    *product(("until",), ("accuracy", *(f"record.{key}" for key in OF_LAST_ROUNDS))),
     ("halving", "accuracy"),  # which bounds the error of the step by other runs
     ("halving", "start"),  # the second run needs the same start
     ("halving", "speeds.in_turn"),
@@ -65,6 +67,9 @@ class Scene(SettingsFile):
     blade: str = Field(pattern=r"^[a-z0-9][a-z0-9-]*$", description="Name of the blade file")
     speeds: Speeds = Field(description="Rotational speeds")
     rounds: int = Field(ge=1, le=MOST_ROUNDS, description="Revolutions of the blade at each speed")
+    until: Literal["steady"] | None = Field(
+        default=None, description="Stop before `rounds` where the motion is steady"
+    )
     integrator: Integrator | None = Field(
         default=None, description="Scheme and time step; required without accuracy"
     )
@@ -219,6 +224,8 @@ class Scene(SettingsFile):
             "start.speed_over_f1": start and start.speed_over_f1 and not start.liner_only,
             "speeds.in_turn": self.speeds.in_turn,
             "contact.friction": self.contact.friction,
+            "until": self.until,
+            **{f"record.{key}": getattr(self.record, key) for key in OF_LAST_ROUNDS},
             "accuracy": self.accuracy,
             NOT_ESTIMATED: self.accuracy,
             "halving": self.halving,
@@ -230,6 +237,10 @@ class Scene(SettingsFile):
         for key, other in EXCLUDED:
             if asked[key] and asked[other]:
                 raise SettingsError(f"does not go with {other}: take one of them out", key=key)
+
+    def stops_at(self, done: int) -> bool:
+        """Whether a steady run stops after so many rounds: asked for, and all that is recorded."""
+        return self.until is not None and done >= (self.record.spectrum_rounds or 0)
 
     @checked
     def _samples_are_steps(self) -> None:

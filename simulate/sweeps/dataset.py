@@ -6,6 +6,7 @@ from collections.abc import Hashable, Iterable, Mapping, Sequence, Set
 from dataclasses import asdict, fields
 from datetime import UTC, datetime
 from itertools import chain
+from math import ceil
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -29,16 +30,16 @@ from simulate.contact.places import SHARES
 from simulate.errors.accuracy import Choice
 from simulate.errors.loads import torque_of_rounds
 from simulate.errors.neighbours import GAP_CHANGE
-from simulate.errors.observables import last_spectrum
+from simulate.errors.observables import NUMBERS, last_spectrum
 from simulate.errors.run import Run
-from simulate.marching import STATUSES, WITH_RESULT, Left, every, strip_stiffness
+from simulate.marching import STATUSES, WITH_RESULT, Left, Outcome, every, strip_stiffness
 from simulate.marching.friction import growth_rate, mu_crit
 from simulate.scene import LEADING, Scene
 from simulate.scene.laws.table import Table
 
 type Entry = tuple[str | tuple[str, ...], Any, dict[str, Any]]
 
-FORMAT = 2
+FORMAT = 3
 WINDOWS = 16  # in a round, of the range of u_r for pictures
 SPEED, SPEED_DIGITS = "speed_over_f1", 12  # dimension of the runs of a sweep, digits of its values
 ENERGIES = (
@@ -65,6 +66,12 @@ VARIABLES = {  # of each run: dimensions beside the speed, unit, meaning
     "step_limit": ("", "s", "stability limit with contact"),
     "steps_per_round": ("", "1", "steps per round"),
     "contact_share": ("", "1", "steps with contact over all steps"),
+    "trend": ("", "1", "whether the motion is steady at the end of the run"),
+    "time_constant": ("", "1", "rounds in which the mode that responds dies out to 1/e"),
+    "displacement": ("", *NUMBERS["displacement"]),
+    "largest_round": ("", "1", "number of the round of the displacement"),
+    "extremes": ("round bound", "m", "range of u_r at xi = 1/16 in a round"),
+    "worn": ("round", "m3", "volume worn off the liner in a round"),
     "seconds": ("", "s", "wall time of the march and of those beside it"),
     "ledger": ("energy", "J", "energies of the whole run"),
     "mu_crit": ("", "1", "friction at which engaged strips lock, statics"),
@@ -122,7 +129,7 @@ COORDINATES = {  # dimensions, unit, meaning
     "share": ("share", "1", "middle of the eighth of the chord"),
     "motion_time": ("motion_time", "1", "rounds since the start"),
     "window": ("window", "1", "rounds since the start, middle of a window"),
-    "bound": ("bound", "", "end of the range"),
+    "bound": ("bound", "1", "end of the range"),
     "energy": ("energy", "", ENERGIES + "{of_friction}"),
     "observable": ("observable", "", ""),
 }
@@ -387,6 +394,18 @@ def left_of(run: xr.Dataset) -> Left:
     return Left(**of | numbers)
 
 
+def course(run: xr.Dataset) -> dict[str, Any]:
+    """How one run of a sweep went on to its end: as its variables, and `wears`, m3 in a round.
+
+    The latter is the mean of the last quarter. Empty for runs made by hand.
+    """
+    if "trend" not in run:
+        return {}
+    worn = run["worn"].values[: int(run["rounds"])]
+    known = {name: run[name].item() for name in ("trend", "time_constant", "largest_round")}
+    return known | {"wears": float(worn[-ceil(len(worn) / 4) :].mean())}
+
+
 def over_f1(Omega: NDArray[np.float64], rom: Rom) -> NDArray[np.float64]:
     """Speeds, rad/s, over f1(0), by which runs of any two sweeps are compared.
 
@@ -418,6 +437,21 @@ def _of_march(run: Run) -> dict[str, Any]:
         "steps_per_round": setup.steps,
         "contact_share": outcome.contact_share,
         "seconds": run.seconds,
+    } | _of_rounds(outcome)
+
+
+def _of_rounds(outcome: Outcome) -> dict[str, Any]:
+    """What every round shows, and whether the motion is steady."""
+    largest, number = outcome.each.largest
+    return {
+        "trend": outcome.trend,
+        "time_constant": outcome.time_constant,
+        "displacement": largest,
+        "largest_round": number,
+        "extremes": outcome.each.extremes.astype(np.float32),
+        "worn": outcome.each.worn,
+        "round": np.arange(1, len(outcome.each.worn) + 1),
+        "bound": ["least", "largest"],
     }
 
 
@@ -499,7 +533,6 @@ def _of_forces(run: Run) -> dict[str, Any]:
     values = {
         "force_peak": outcome.force_peak,
         "force_mean": outcome.force_mean,
-        "round": np.arange(1, scene.rounds + 1),
         "share": (np.arange(SHARES) + 0.5) / SHARES,
     }
     if scene.contact.along:
@@ -520,5 +553,4 @@ def _of_motion(run: Run) -> dict[str, Any]:
         "motion_time": scene.rounds - 1 + np.arange(step, samples + 1, step) / samples,
         "envelope": np.stack(bounds, axis=-1).astype(np.float32),
         "window": (np.arange(len(edges)) + 0.5) / WINDOWS,
-        "bound": ["least", "largest"],
     }

@@ -33,7 +33,7 @@ from simulate.errors.accuracy import Choice
 from simulate.errors.observables import NUMBERS, last_spectrum, numbers
 from simulate.errors.run import Run
 from simulate.errors.signals import amplitude
-from simulate.marching import STATUSES, WITH_RESULT, SceneError, check_scene
+from simulate.marching import STATUSES, TRENDS, WITH_RESULT, SceneError, check_scene
 from simulate.scene import LEADING, Scene
 from simulate.scene.design import Design, refuse, value_at
 from simulate.sweeps import dataset
@@ -45,11 +45,13 @@ from simulate.sweeps.plausible import doubts, warn_of
 
 SAVED_EVERY = 120.0  # s: what is lost at most when the process is killed, and one row
 KEPT_MODES = 512  # speeds whose modes are kept: 30 MB with 88 DoFs
-FORMAT = 1
-FLAGS = {
-    "flag_values": np.arange(len(STATUSES), dtype=np.int8),
-    "flag_meanings": " ".join(STATUSES),
-}
+FORMAT = 2
+
+
+def _flags(words: Sequence[str]) -> dict[str, Any]:
+    """Attributes that name the codes of a variable."""
+    named = " ".join(word.replace(" ", "-") for word in words)
+    return {"flag_values": np.arange(len(words), dtype=np.int8), "flag_meanings": named}
 
 
 SINGLE = np.float32
@@ -59,8 +61,12 @@ UNKNOWN = "; nan without record.contact_force"
 COLUMNS = {  # numbers of each run: type, unit, meaning
     "speed": (np.float64, "rad s-1", "rotational speed Omega"),
     "speed_over_f1": (np.float64, "1", "Omega over f1(0)"),
-    "status": (np.int8, "1", "how the run ended", FLAGS),
+    "status": (np.int8, "1", "how the run ended", _flags(STATUSES)),
     "rounds": (SINGLE, "1", "rounds marched"),
+    "trend": (np.int8, "1", "whether the motion is steady at the end", _flags(TRENDS)),
+    "time_constant": (SINGLE, "1", "rounds in which the mode that responds dies out to 1/e"),
+    "displacement": (SINGLE, *NUMBERS["displacement"]),
+    "largest_round": (SINGLE, "1", "number of the round of the displacement"),
     "end_xi": (SINGLE, "1", "chord fraction where a run ended early; else nan"),
     "f1": (SINGLE, "1", "f1(Omega) over f1(0)"),
     "amplitude": (SINGLE, "m", "largest amplitude of u_r at xi = 1/16; nan without spectrum"),
@@ -185,6 +191,9 @@ def _numbers(run: Run, orders: Sequence[int]) -> tuple:
         "speed_over_f1": dataset.over_f1(run.setup.Omega, run.rom),
         "status": STATUSES.index(outcome.status),
         "rounds": outcome.rounds,
+        "trend": TRENDS.index(outcome.trend),
+        "time_constant": outcome.time_constant,
+        "largest_round": outcome.each.largest[1],
         "end_xi": outcome.xi,
         "f1": run.setup.omega[0] / run.rom.omega1,
         "contact_share": outcome.contact_share,
@@ -310,7 +319,8 @@ ROW_COLUMNS = {  # numbers of each row: dimensions, unit, meaning
     "over_crossing": (AT_PEAK, "1", "Omega_c over the linear crossing of f1 with the order"),
     "peak": (AT_PEAK, "1", "amplitude of u_r there over the gap at xi = 1/16"),
     "reported": (AT_PEAK, "1", "1 for peaks that figures and tables name"),
-    "status": (AT_PEAK, "1", "how the run there ended; -1 without a peak", FLAGS),
+    "status": (AT_PEAK, "1", "how the run there ended; -1 without a peak", _flags(STATUSES)),
+    "trend": (AT_PEAK, "1", "whether the motion is steady there; -1: no peak", _flags(TRENDS)),
     "wear": (AT_PEAK, "m", COLUMNS["wear"][-1] + ", there"),
     "lobes": (AT_PEAK, "1", "worn lobes there; -1 without a peak"),
     "force_peak": (AT_PEAK, *COLUMNS["force_peak"][1:]),
@@ -323,7 +333,13 @@ ROW_COLUMNS = {  # numbers of each row: dimensions, unit, meaning
 
 
 OF_PEAK = {"critical_speed": "Omega_c", "over_crossing": "over_crossing", "peak": "amplitude"}
-NO_PEAK = {"status": -1, "wear": np.nan, "lobes": -1, "force_peak": np.nan}  # of no run
+NO_PEAK = {
+    "status": -1,
+    "trend": -1,
+    "wear": np.nan,
+    "lobes": -1,
+    "force_peak": np.nan,
+}  # of no run
 
 
 def _of_row(engine: Engine, scene: Scene, runs: NDArray) -> dict[str, Any]:

@@ -49,6 +49,7 @@ class Peak:
     spacing: float | None = None  # over f1(0), to the further neighbour in the sweep
     status: str = ""
     lobes: int | None = None  # worn there, of the leading eighth; None where no wear is recorded
+    course: dict[str, Any] = field(default_factory=dict, hash=False)  # ``dataset.course`` there
     verdict: str = ""  # of second runs (``neighbour``); empty where none was marched
     numbers: Numbers = field(default_factory=dict, hash=False)  # in the units of ``NUMBERS``
     errors: Numbers = field(default_factory=dict, hash=False)  # of each number, in its unit

@@ -38,9 +38,10 @@ from simulate.errors.signals import gaps_at_ends, leading_wear, lobe_count
 from simulate.marching import SENSITIVE_FROM, WITH_RESULT, prepare
 from simulate.scene import Scene
 from simulate.sweeps.before import before
-from simulate.sweeps.dataset import scene_of, statuses
+from simulate.sweeps.dataset import course, scene_of, statuses
 from simulate.sweeps.peak import Peak, along_order, crossing, reported
 
+OF_MOTION = {name: name for name in ("amplitude", "displacement")}
 OF_CONTACT = {  # numbers of a peak by their name in files, and that in ``NUMBERS``
     **{name: name for name in ("wear", "worn_volume", "opening", "force_peak", "torque")},
     "force": "force_mean",
@@ -154,6 +155,7 @@ def asked(runs: xr.Dataset, rom: Rom) -> list[Peak]:
             spacing=_spacing(speeds, peak.index),
             status=str(runs["status"].values[peak.index]),
             lobes=_lobes(runs, peak.index),
+            course=course(runs.isel(speed_over_f1=peak.index)),
         )
         for peak in found
     ]
@@ -202,7 +204,7 @@ def _tried(peak: Peak, case: Case, doubt: Doubt) -> Peak:
         verdict=CHAOTIC if chaotic else TWO_MOTIONS if sides else ONE_MOTION,
         numbers=own,
         errors={
-            name: value * hypot(*(changes.get(name, 0.0) for changes in parts.values()))
+            name: value * hypot(*filter(isfinite, (of.get(name, 0.0) for of in parts.values())))
             for name, value in own.items()
         },
         # of the run that differs most from the own one
@@ -224,7 +226,9 @@ def at_peak(case: Case, k: int | None) -> Numbers:
     if run.outcome.status not in WITH_RESULT:
         return {}
     found = numbers(run, k)
-    names = {"amplitude": "amplitude"} | (OF_CONTACT if case.scene.liner.law.touches else {})
+    names = {name: name for name in ("amplitude", "displacement")} | (
+        OF_CONTACT if case.scene.liner.law.touches else {}
+    )
     return {name: found[of] for name, of in names.items() if of in found}
 
 

@@ -16,6 +16,7 @@ from simulate.errors.observables import differences, distance, observables
 from simulate.errors.run import Case, Run
 from simulate.marching import SENSITIVE_FROM, Facts, Outcome, largest_state, prepare
 from simulate.marching.kernel import ESCAPED, RUNNING, WORN_THROUGH
+from simulate.marching.trend import Rounds
 from simulate.sweeps.closing_in import sweep
 from simulate.sweeps.over_speeds import at_speeds
 
@@ -69,6 +70,7 @@ def outcome(scale=1.0, status="ok", **changes):
         force_tangential_mean=np.zeros((2, 8)),
         casing_work=np.zeros(2),
         contact_share=0.5,
+        each=Rounds(scale * np.array([[-3.0, 3.0]] * 2), scale * np.arange(3.0)),
     )
     return replace(run, **changes)
 

@@ -184,6 +184,7 @@ def test_uncertainty_is_the_root_of_squares_of_its_parts(known):
         assert {*peak.parts} - {"speeds"} == of_all and ("speeds" in peak.parts) == bool(peak.k)
         for name, value in peak.numbers.items():
             shares = [of.get(name, 0.0) for of in peak.parts.values()]
+            shares = [share for share in shares if np.isfinite(share)]  # others are not known
             assert peak.errors[name] == pytest.approx(np.linalg.norm(shares) * value)
             assert peak.parts["patches"][name] > 0 and peak.parts["finer"][name] > 0
         assert peak.runs >= 8
@@ -242,5 +243,5 @@ def test_without_a_result_or_in_turn_nothing_is_tried(coarse_rom, worn):
 def test_a_bare_casing_has_no_liner_numbers_and_no_liner_no_force(coarse_rom):
     free = WORN | {"liner__law": {"kind": "none"}}
     (peak,) = results(swept(scene(**free), coarse_rom), coarse_rom, CALM)
-    assert {*peak.numbers} == {"amplitude"}
+    assert {*peak.numbers} == {"amplitude", "displacement"}
     assert {*peak.errors} <= {*NUMBERS}

@@ -13,6 +13,7 @@ from simulate.contact.places import SHARES, force_weights
 from simulate.errors.observables import numbers, observables
 from simulate.errors.run import Run
 from simulate.marching import Outcome, check_scene
+from simulate.marching.trend import Rounds
 from simulate.scene import Record
 from simulate.scene.design import value_at
 from simulate.sweeps.closing_in import sweep
@@ -39,6 +40,7 @@ def single(u, wear, forces=1.0, status="ok", **places):
     force = np.tile(on_shares, (ROUNDS, 1))
     of = dict.fromkeys(field.name for field in fields(Outcome))
     of |= {"status": status, "u_r": np.column_stack([u, u]), "wear": wear, "ends": ends}
+    of["each"] = Rounds.room(ROUNDS, 0.0)
     of |= dict.fromkeys(("force_peak", "force_mean", "force_tangential_mean"), force)
     one = dict.fromkeys(("width", "radius"), np.full(len(wear), len(wear) ** -0.5)) | places
     setup = SimpleNamespace(places=SimpleNamespace(**one), steps=4096)
