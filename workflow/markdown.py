@@ -54,16 +54,17 @@ class Number(NamedTuple):
 
     def __str__(self) -> str:
         """The digits of the value that its uncertainty allows, and one of that."""
-        return self.shown if self.error is None else f"{self.shown} ± {self.error:.1g}"
+        if self.error is None:
+            return self.shown
+        return f"{self.shown} ± {two_digits(rounded(self.error, 1))}"
 
     @property
     def shown(self) -> str:
         """The value alone, to the first digit of its uncertainty, three digits at most."""
-        digits = DIGITS
-        if self.error and self.value and isfinite(self.error):
-            first, last = (floor(log10(abs(of))) for of in (self.value, self.error))
-            digits = min(max(first - last + 1, 1), DIGITS)
-        value = rounded(self.value, digits) if digits < DIGITS else self.value
+        value = self.value
+        if self.error and value and isfinite(self.error):
+            first, last = (floor(log10(abs(of))) for of in (value, self.error))
+            value = rounded(value, min(max(first - last + 1, 1), DIGITS))
         return f"{value:.{DIGITS}g}" if abs(value) < 1000 else f"{value:.0f}"
 
     @property

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 from geometry.project import csv_text, read_json
 from simulate.errors.neighbour import CHAOTIC, ONE_MOTION, TWO_MOTIONS
-from simulate.marching.trend import DYING_OUT, GROWING, TRENDS
+from simulate.scene import DYING_OUT, GROWING, TRENDS
 from workflow import markdown
 from workflow.markdown import Number
 
@@ -163,7 +163,7 @@ def _unknown(doubt: Mapping[str, float | None], parts: Mapping[str, Any]) -> dic
     of_all = {
         "model": doubt["basis"] is not None,
         "mesh": doubt["mesh"] is not None,
-        "fineness": bool({"finer", "companion"} & {*parts}),
+        "fineness": not parts or bool({"finer", "companion"} & {*parts}),
     }
     between = parts.get("speeds", {}).get("amplitude", 0.0) is not None
     missing = [name for name, known in of_all.items() if not known]

@@ -20,4 +20,3 @@ from simulate.marching.status import (
     WITH_RESULT,
     Facts,
 )
-from simulate.marching.trend import DYING_OUT, GROWING, STEADY, TOO_SHORT, TRENDS

@@ -21,8 +21,8 @@ from simulate.marching.modal import TURNS, padded_rows, rows_of
 from simulate.marching.setup import Setup, compiling, strip_stiffness
 from simulate.marching.start import Left, Worn, begin, left_by
 from simulate.marching.status import WITH_RESULT, Facts, judge, why_no_contact
-from simulate.marching.trend import STEADY, TOO_SHORT, Rounds, time_constant
-from simulate.scene import Record, Scene
+from simulate.marching.trend import Rounds, time_constant
+from simulate.scene import STEADY, TOO_SHORT, Record, Scene
 
 SCHEMES = {"central-difference": central_difference, "piecewise-exact": piecewise_exact}
 

@@ -23,8 +23,8 @@ from math import inf
 import numpy as np
 from numpy.typing import NDArray
 
-STEADY, GROWING, DYING_OUT, TOO_SHORT = "steady", "growing", "dying out", "too short to say"
-TRENDS = (STEADY, GROWING, DYING_OUT, TOO_SHORT)
+from simulate.scene import DYING_OUT, GROWING, STEADY, TOO_SHORT
+
 FEWEST = 8  # rounds, to say anything
 MOVES = 0.1  # of the swing at the end, from quarter to quarter
 SLOWS = 0.3  # the last change over the one before, at least: else it comes to an end

@@ -4,17 +4,32 @@ from simulate.scene.casing import LEADING, TRAILING, Casing, Clearance, Harmonic
 from simulate.scene.contact import Contact, Profile
 from simulate.scene.integrator import CentralDifference, PiecewiseExact
 from simulate.scene.liner import STRIPS, Liner
-from simulate.scene.record import BESIDE, History, Peaks, Record
+from simulate.scene.record import (
+    BESIDE,
+    DYING_OUT,
+    GROWING,
+    STEADY,
+    TOO_SHORT,
+    TRENDS,
+    History,
+    Peaks,
+    Record,
+)
 from simulate.scene.scene import Scene, fault_of_blade
 from simulate.scene.speeds import OVER_F1, RAD_S, Speeds
 
 __all__ = [
     "BESIDE",
+    "DYING_OUT",
+    "GROWING",
     "LEADING",
     "OVER_F1",
     "RAD_S",
+    "STEADY",
     "STRIPS",
+    "TOO_SHORT",
     "TRAILING",
+    "TRENDS",
     "Casing",
     "CentralDifference",
     "Clearance",

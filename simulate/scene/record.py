@@ -6,6 +6,8 @@ from pydantic import Field
 
 from geometry.project import Settings
 
+STEADY, GROWING, DYING_OUT, TOO_SHORT = "steady", "growing", "dying out", "too short to say"
+TRENDS = (STEADY, GROWING, DYING_OUT, TOO_SHORT)  # of a run, at its end (``marching.trend``)
 BESIDE = 2  # engine orders beside that of a peak, with which it is compared
 
 

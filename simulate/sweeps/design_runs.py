@@ -33,8 +33,8 @@ from simulate.errors.accuracy import Choice
 from simulate.errors.observables import NUMBERS, last_spectrum, numbers
 from simulate.errors.run import Run
 from simulate.errors.signals import amplitude
-from simulate.marching import STATUSES, TRENDS, WITH_RESULT, SceneError, check_scene
-from simulate.scene import LEADING, Scene
+from simulate.marching import STATUSES, WITH_RESULT, SceneError, check_scene
+from simulate.scene import LEADING, TRENDS, Scene
 from simulate.scene.design import Design, refuse, value_at
 from simulate.sweeps import dataset
 from simulate.sweeps.closing_in import halfway

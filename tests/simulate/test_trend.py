@@ -10,17 +10,9 @@ from scenes import EXACT, of_steps, scene
 from scipy.signal import lfilter
 
 from geometry.project import SettingsError
-from simulate.marching import (
-    DYING_OUT,
-    GROWING,
-    STEADY,
-    TOO_SHORT,
-    TRENDS,
-    WITH_RESULT,
-    march,
-    prepare,
-)
+from simulate.marching import WITH_RESULT, march, prepare
 from simulate.marching.trend import FEWEST, Rounds, time_constant, trend
+from simulate.scene import DYING_OUT, GROWING, STEADY, TOO_SHORT, TRENDS
 from simulate.sweeps.peak import crossing
 
 J = np.arange(400.0)

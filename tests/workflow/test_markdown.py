@@ -12,8 +12,13 @@ from workflow.markdown import Number, percent, two_digits
         (Number(1234.5, 0.0), "1234 ± 0", "±0.01%"),  # no exponent; not below a hundredth of 1 %
         (Number(-0.05, 0.01), "-0.05 ± 0.01", "±20%"),
         (Number(0.0, 0.1), "0 ± 0.1", ""),
-        (Number(40.0), "40", "?"),
-        (Number(40.0, float("inf")), "40 ± inf", "?"),
+        (Number(14.37, 0.76), "14.4 ± 0.8", "±5.3%"),
+        (Number(17.12, 3.4), "17 ± 3", "±20%"),
+        (Number(1234.5, 56.0), "1230 ± 60", "±4.5%"),
+        (Number(0.234, 0.5), "0.2 ± 0.5", "±214%"),
+        (Number(40.0, 4.4, least=True), "40 ± 4", "≥11%"),
+        (Number(40.0), "40", "(no ±)"),
+        (Number(40.0, float("inf")), "40 ± inf", "(no ±)"),
     ],
 )
 def test_a_number_with_its_uncertainty(number, shown, share):

@@ -8,9 +8,16 @@ import pytest
 
 from geometry.project import write_json
 from simulate.errors.neighbour import ONE_MOTION, TWO_MOTIONS
+from simulate.scene import DYING_OUT, GROWING, TRENDS
 from workflow import summary
 
-NUMBERS = {"amplitude": 4e-5, "wear": 1e-5, "worn_volume": 2e-7, "opening": 1.5e-6}
+NUMBERS = {
+    "amplitude": 4e-5,
+    "displacement": 7e-5,
+    "wear": 1e-5,
+    "worn_volume": 2e-7,
+    "opening": 1.5e-6,
+}
 NUMBERS |= {"force": 170.0, "force_peak": 580.0, "torque": 0.05}
 ANSWER = {
     "k": 4,
@@ -25,6 +32,7 @@ ANSWER = {
     "errors": {name: 0.05 * value for name, value in NUMBERS.items()},
     "other": {},
     "lobes": 4,
+    "course": {"trend": "steady", "time_constant": 18.2, "largest_round": 17.0, "wears": 3e-12},
     "parts": {"twin": {"amplitude": 0.03}, "finer": {"amplitude": 0.04}},
     "runs": 7,
     "seconds": 1.5,
@@ -113,14 +121,15 @@ def test_what_is_not_known_is_said(summed):
     found = summed({"numbers": numbers, "errors": {}}, doubt=doubt, no_torque="a reason")
     text = summary.terminal(found)
     assert all(what in text for what in ("mesh", "record.states_rounds", "torque (a reason)"))
-    assert cells(found)[4:6] == ["40 ?", "170 ?"]
+    assert cells(found)[4:6] == ["40 (no ±)", "170 (no ±)"]
     row = read_csv(found)
     assert row["torque (N m)"] == row["amplitude +- (um)"] == ""
     elsewhere = summed(stress=STRESS | {"speed_over_f1": 0.36})
     assert "stress" not in elsewhere["scenes"][0]["rows"][0]["values"]
     # central differences have no runs of other fineness; where nothing was tried, nothing is missed
     for parts, known in (({"twin": {"amplitude": 0.05}}, False), ({}, True)):
-        assert summed({"parts": parts})["scenes"][0]["fineness"] is known
+        (row,) = summed({"parts": parts})["scenes"][0]["rows"]
+        assert ("fineness" not in row["unknown"][summary.ALL]) is known
     for amplitude, known in ((0.05, True), (None, False)):
         parts = {"twin": {}, "speeds": {"amplitude": amplitude}}
         found = summed({"parts": parts})
@@ -148,6 +157,27 @@ def test_stress_is_that_of_the_page_where_no_state_was_recorded(summed):
     assert "400 ±5%" in cells(summed(page=PAGE, stress=STRESS))
     without = summed({"Omega_c": 0.4}, page=PAGE)  # no result at that speed
     assert "stress" not in without["scenes"][0]["rows"][0]["values"]
+
+
+def test_an_error_known_in_part_is_at_least_so_large(summed):
+    """Of the mesh nothing is known, or between the speeds of the sweep, of the amplitude alone."""
+    assert {"40 ≥5%", "70 ≥5% (rev. 17)", "170 ≥5%"} <= {
+        *cells(summed(doubt={"basis": 1e-4, "mesh": None}))
+    }
+    between = {"parts": ANSWER["parts"] | {"speeds": {"amplitude": None}}}
+    assert {"40 ≥5%", "70 ±5% (rev. 17)", "170 ±5%"} <= {*cells(summed(between))}
+    assert read_csv(summed(between))["not known of +-"] == "speeds"
+
+
+@pytest.mark.parametrize("trend", TRENDS)
+def test_a_run_says_whether_it_is_steady(summed, trend):
+    """No bare +- stands at an amplitude that still grows, or dies out."""
+    found = summed({"course": ANSWER["course"] | {"trend": trend}})
+    moves = trend in (GROWING, DYING_OUT)
+    assert cells(found)[4] == (f"40 ±5%, {trend}" if moves else "40 ±5%")
+    assert f"{trend}; τ 18.2 rev.; 0.003 mm³/rev." in cells(found)
+    row = read_csv(found)
+    assert (row["trend"], float(row["largest_round"]), float(row["wears"])) == (trend, 17, 3e-12)
 
 
 def test_a_peak_with_two_motions_has_both_numbers(summed):
