@@ -307,7 +307,7 @@ function showSpeed() {
   const hertz = speed * facts.f1_Hz;
   const lobes = facts.lobes.length ? `, ${facts.lobes[chosen]} lobes` : "";
   byId("at").textContent = `${(60 * hertz).toFixed(0)} rpm, ${hertz.toFixed(1)} Hz, Ω / f₁(0) = ${speed.toFixed(4)}: ` +
-    `${facts.status[chosen]}${lobes}`;
+    `${facts.status[chosen]}, ${facts.trend[chosen]}${lobes}`;
   byId("speed").value = chosen;
 }
 

@@ -88,6 +88,7 @@ def facts(response: Response, blade: str, scene: str) -> dict[str, Any]:
         "speeds": response.speeds.tolist(),
         "f1": sweep["f1"].values.tolist(),
         "status": response.status.tolist(),
+        "trend": response.trend.tolist(),
         "has_result": response.has_result.tolist(),
         "lobes": [lobe_count(wear) for wear in response.wear] if "wear" in sweep else [],
         "peaks": [

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from rom.model import Rom
 from simulate.errors.neighbours import GAP_CHANGE
 from simulate.marching import SENSITIVE_FROM
+from simulate.scene import DYING_OUT, GROWING
 from simulate.sweeps.peak import Peak
 from workflow.figures import style
 from workflow.figures.response import Response
@@ -31,10 +32,15 @@ POINTS = 161  # speeds of a curve of natural frequencies
 
 
 def speed_text(response: Response, peak: Peak) -> str:
-    """Critical speed with its unit; where the sweep ends on the rise, its bound."""
+    """Critical speed with its unit; where the sweep ends on the rise, its bound.
+
+    With a word where the motion there still grows or dies out at the end of the run.
+    """
     last = peak.index == len(response.speeds) - 1
     beyond = "" if not peak.at_end else r"$\geq$ " if last else r"$\leq$ "
-    return beyond + response.units[0].speed.text(peak.Omega_c)
+    trend = response.trend[peak.index]
+    goes_on = f", {trend}" if trend in (GROWING, DYING_OUT) else ""
+    return beyond + response.units[0].speed.text(peak.Omega_c) + goes_on
 
 
 def engine_order(axes: Axes, k: int, dashes: str, beside: float = 4) -> Annotation:

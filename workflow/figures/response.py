@@ -55,6 +55,11 @@ class Response:
         """Which runs (speeds,) have a result: `ok`, `sensitive`, or `no-contact`, at rest."""
         return np.isin(self.status, WITH_RESULT)
 
+    @property
+    def trend(self) -> NDArray[np.str_]:
+        """Whether each run (speeds,) is steady; empty where a sweep was made by hand."""
+        return self.sweep.get("trend", xr.zeros_like(self.sweep["speed"], str)).values
+
     @cached_property
     def wear(self) -> NDArray[np.float64]:
         """Worn depth (speeds, nu) of the chord's leading eighth over gap, rods at 2 pi j / nu."""
