@@ -21,7 +21,7 @@ from simulate.marching.modal import TURNS, padded_rows, rows_of
 from simulate.marching.setup import Setup, compiling, strip_stiffness
 from simulate.marching.start import Left, Worn, begin, left_by
 from simulate.marching.status import WITH_RESULT, Facts, judge, why_no_contact
-from simulate.marching.trend import Rounds, time_constant
+from simulate.marching.trend import Rounds, time_constant, trend
 from simulate.scene import STEADY, TOO_SHORT, Record, Scene
 
 SCHEMES = {"central-difference": central_difference, "piecewise-exact": piecewise_exact}
@@ -121,8 +121,8 @@ def march(scene: Scene, setup: Setup, left: Left | Worn | None = None) -> Outcom
         begin(state, left, scheme, SCHEMES[scene.integrator.scheme], setup, scene.damping_ratio)
     before = _stored(scene, setup, state, first * steps)
     contacts, done, end, worked = 0, 0, RUNNING, [0.0]
-    each, changing = Rounds.room(scene.rounds, _worn(setup, state)), scene.casing.changes_until
-    word, tau = TOO_SHORT, inf
+    seen, worn, word, tau = [], _worn(setup, state), TOO_SHORT, inf
+    standing = max(scene.casing.changes_until - first, 0)  # the first round that counts, from 0
     while done < scene.rounds and end == RUNNING and not (word == STEADY and scene.stops_at(done)):
         of_kernel = arguments(done, first)
         touched, step, end, node = kernel(*of_kernel)
@@ -130,11 +130,12 @@ def march(scene: Scene, setup: Setup, left: Left | Worn | None = None) -> Outcom
         worked.append(float(state.energies[CASING]))
         samples = of_kernel[3].samples[:, 0]
         if end == RUNNING:
-            each.add(done, samples, _worn(setup, state))
+            seen.append((samples.min(), samples.max(), _worn(setup, state)))
         done += 1
         if scene.until or done == scene.rounds:
             tau = time_constant(samples, setup.omega, setup.Omega, scene.damping_ratio)
-            word = each.trend(max(changing - first, 0), done, tau)
+            whole = Rounds.of(seen, len(seen), worn)
+            word = trend(whole.swing[standing:], whole.worn[standing:], tau)
     marched = (done - 1) * steps + step
     taken = np.full((scene.rounds, 1), steps)
     taken[done - 1] = step
@@ -166,7 +167,7 @@ def march(scene: Scene, setup: Setup, left: Left | Worn | None = None) -> Outcom
         force_tangential_mean=forces[:, 2] / taken,
         casing_work=np.diff(worked),
         contact_share=contacts / marched,
-        each=each,
+        each=Rounds.of(seen, scene.rounds, worn),
         time_constant=tau,
         trend=word,
         left=left_by(state, setup, first + done) if wanted and end == RUNNING else None,

@@ -17,6 +17,7 @@ Rounds in which the casing's distortion still changes do not count. The limits a
 drawn scenes, marched ten time constants on, refute few of the words (tests/simulate/test_trend.py).
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import inf
 
@@ -39,24 +40,23 @@ class Rounds:
     """What each round of a run shows; nan where it was not marched to its end."""
 
     extremes: NDArray[np.float64]  # (rounds, 2), m, least and largest u_r at xi = 1/16
-    volume: NDArray[np.float64]  # (1 + rounds,), m3, worn off at the start and after each round
+    worn: NDArray[np.float64]  # (rounds,), m3, volume worn off the liner
 
     @classmethod
-    def room(cls, rounds: int, volume: float) -> "Rounds":
-        """Room for so many rounds, of a run that starts with a worn ``volume``, m3."""
-        whole = np.full(1 + rounds, np.nan)
-        whole[0] = volume
-        return cls(np.full((rounds, 2), np.nan), whole)
+    def of(cls, seen: Sequence[tuple[float, float, float]], rounds: int, volume: float) -> "Rounds":
+        """Of all ``rounds`` those that were ``seen``.
 
-    def add(self, done: int, samples: NDArray[np.float64], volume: float) -> None:
-        """Take in round ``done``, from 0: ``samples`` (n,), m, of u_r, and ``volume`` worn, m3."""
-        self.extremes[done] = samples.min(), samples.max()
-        self.volume[done + 1] = volume
+        Least and largest u_r, m, in each, and the volume worn until its end, m3; ``volume``: that
+        before the first.
+        """
+        whole = np.full((rounds, 3), np.nan)
+        whole[: len(seen)] = np.reshape(seen, (-1, 3))
+        return cls(whole[:, :2], np.diff(whole[:, 2], prepend=volume))
 
     @property
-    def worn(self) -> NDArray[np.float64]:
-        """Volume (rounds,), m3, worn off the liner in each round."""
-        return np.diff(self.volume)
+    def swing(self) -> NDArray[np.float64]:
+        """Half the range (rounds,), m, of u_r."""
+        return np.diff(self.extremes, axis=1)[:, 0] / 2
 
     @property
     def largest(self) -> tuple[float, float]:
@@ -65,11 +65,6 @@ class Rounds:
         if np.isnan(of_rounds).all():
             return np.nan, np.nan
         return float(np.nanmax(of_rounds)), float(np.nanargmax(of_rounds) + 1)
-
-    def trend(self, first: int, last: int, tau: float) -> str:
-        """The word of the rounds from ``first`` on, before ``last``, both from 0; see ``trend``."""
-        swing = np.diff(self.extremes, axis=1)[first:last, 0] / 2
-        return trend(swing, self.worn[first:last], tau)
 
 
 def time_constant(

@@ -79,12 +79,12 @@ def test_the_time_constant_is_of_the_mode_that_responds():
 
 
 def test_the_largest_displacement_has_its_round():
-    rounds = Rounds.room(4, 2.0)
-    assert np.isnan(rounds.largest).all()
-    for done, (samples, volume) in enumerate((([-3, 1], 2.0), ([1, -5], 2.5), ([2, 4], 4.0))):
-        rounds.add(done, np.array(samples), volume)
+    assert np.isnan(Rounds.of([], 4, 2.0).largest).all()
+    seen = [(-3.0, 1.0, 2.0), (-5.0, 1.0, 2.5), (2.0, 4.0, 4.0)]
+    rounds = Rounds.of(seen, 4, 2.0)
     assert rounds.largest == (5.0, 2.0)
     np.testing.assert_array_equal(rounds.worn, [0.0, 0.5, 1.5, np.nan])
+    np.testing.assert_array_equal(rounds.swing, [2.0, 3.0, 1.0, np.nan])
 
 
 RUB = {
@@ -174,10 +174,10 @@ def test_few_words_of_drawn_scenes_are_refuted(coarse_rom):
         run = marched(case, coarse_rom, over_f1)
         if run.status not in WITH_RESULT:
             continue
-        word = run.each.trend(case.casing.changes_until, rounds, run.time_constant)
+        judged = slice(case.casing.changes_until, rounds)
+        word = trend(run.each.swing[judged], run.each.worn[judged], run.time_constant)
         words[word] += 1
-        swing = np.diff(run.each.extremes, axis=1)[:, 0] / 2
-        wrong[word] += word != TOO_SHORT and refuted(word, swing, rounds)
+        wrong[word] += word != TOO_SHORT and refuted(word, run.each.swing, rounds)
         if rounds - case.casing.changes_until > 2 * run.time_constant:
             long.append(word != TOO_SHORT)
     print(words, wrong, len(long), np.mean(long))
