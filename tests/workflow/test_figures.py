@@ -69,7 +69,7 @@ from workflow.figures import (
     trade,
     wear,
 )
-from workflow.figures.marks import nearest
+from workflow.figures.marks import nearest, speed_text
 from workflow.figures.response import Response
 from workflow.identify.likelihood import FITS, SHIFTS, WITH_ORDER
 from workflow.identify.priors import Priors
@@ -862,11 +862,11 @@ def test_figure_summary_and_claim_name_the_same_peaks(sweep, rom, seen, of_user)
     told = asked(sweep, rom)
     judged = coating(sweep, rom)["peaks"]
     rows = [{"rpm": 60 * F1 * peak.Omega_c, "um": 1e6 * GAP * peak.amplitude} for peak in told]
-    speeds, _, lengths = of_user.units[0]
+    lengths, _ = of_user.units["length"]
     for row, peak in zip(rows, of_user.peaks, strict=True):
-        assert speeds.text(peak.Omega_c) == f"{row['rpm']:.0f} rpm"
+        assert speed_text(of_user, peak) == f"{row['rpm']:.0f} rpm"
         assert lengths.scale * peak.amplitude == pytest.approx(row["um"], rel=1e-12)
-    assert seen.units == of_user.units[::-1]
+    assert seen.units == {name: pair[::-1] for name, pair in of_user.units.items()}
     assert [(peak.k, peak.Omega_c, peak.amplitude) for peak in told] == marked
     assert [peak.lobes for peak in told] == [4, 6]
     away = [(end["over_f1"], end["lobes"], end["status"]) for end in ends(sweep)]

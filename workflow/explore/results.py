@@ -13,7 +13,6 @@ from simulate.sweeps import peak
 from simulate.sweeps.peak import along_order, crossing
 from workflow.figures.marks import frequencies_over_speed
 from workflow.figures.response import Response
-from workflow.figures.units import NORMS
 
 ORDERS = (2, *peak.ORDERS)  # engine orders of the critical-speed diagram
 MODES = 4  # natural frequencies of the Campbell diagram
@@ -69,14 +68,13 @@ def facts(response: Response, blade: str, scene: str) -> dict[str, Any]:
     """Names, units, natural frequencies, and values of each speed, as plain values."""
     sweep, rom = response.sweep, response.rom
     speeds, frequencies = frequencies_over_speed(rom, MODES)
-    crossings = {k: crossing(rom, k) for k in ORDERS}
     return {
         "blade": blade,
         "scene": scene,
         "label": response.label.replace("$", "").replace("\\sigma_Y", "σ_Y").replace("\n", " "),
-        "norms": response.units[0] == NORMS,
+        "norms": response.units["speed"][0].scale == 1.0,
         "campbell": {"speeds": speeds.tolist(), "frequencies": frequencies.T.tolist()},
-        "crossings": [(k, speed) for k, speed in crossings.items() if isfinite(speed)],
+        "crossings": [(k, at) for k in ORDERS if isfinite(at := crossing(rom, k))],
         "signal_time": sweep["motion_time"].values.tolist() if "motion" in sweep else [],
         "f1_Hz": sweep.attrs["f1_Hz"],
         "gap_um": 1e6 * leading_gap(sweep),

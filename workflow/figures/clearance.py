@@ -91,7 +91,7 @@ def gap(sweep: Response) -> Figure:
         axes.plot(sweep.speeds, MICRO * gaps, label=rf"$\xi$ = {xi}", **look)
         axes.axhline(MICRO * given, color=look["color"], linestyle=":", linewidth=0.8)
     axes.set(ylabel="gap (µm)", ylim=(0, None))
-    units.below(axes, *sweep.units)
+    units.show(axes.xaxis, style.below, *sweep.units["speed"])
     axes.legend(title="dotted: at rest")
     drawn.suptitle(sweep.names, fontsize=8)
     return drawn

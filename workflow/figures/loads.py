@@ -105,12 +105,13 @@ def panels(
         if name == "worn_volume":
             per_mm3 = MICRO / CUBIC_MM * loads[0].opening_per_volume
             style.beside(axes, per_mm3, "mean opening (µm)")
-        note = _unknown(loads) if name == "torque" else _not_recorded(loads, name)
-        axes.text(1, 1.03, note, ha="right", va="bottom", transform=axes.transAxes, fontsize=7)
+        if name == "torque":
+            at = {"ha": "right", "va": "bottom", "transform": axes.transAxes}
+            axes.text(1, 1.03, _unknown(loads), fontsize=7, **at)
     critical = {p["k"]: p["Omega_c"] for of in loads for p in of.peaks if p["k"]}
-    units.below(used[-1], units.of_engines(f1), units.NORMS)
     for axes in used:
         operating_lines(drawn if axes is used[0] else None, axes, f1, operating, critical, "peak")
+    units.show(used[-1].xaxis, style.below, *units.both(False, f1)["speed"])
     style.legend(drawn, "lower left", ncols=2)
     drawn.suptitle(f"blade {blade}", fontsize=8)
     return drawn
@@ -119,16 +120,6 @@ def panels(
 def _unknown(loads: Sequence[Loads]) -> str:
     """Of which scenes the model has no torque, and why."""
     return "; ".join(f"not known of {of.name}: {of.no_torque}" for of in loads if of.no_torque)
-
-
-def _not_recorded(loads: Sequence[Loads], name: str) -> str:
-    """Of which scenes a number is known at the peaks alone."""
-    known = [of for of in loads if _has(of, name)]
-    without = [of.name for of in known if name not in of.lines]
-    if not without:
-        return ""
-    names = f"of {', '.join(without)} " if len(without) < len(known) else ""
-    return f"{names}known at the peaks alone"
 
 
 def _has(loads: Loads, name: str) -> bool:

@@ -38,9 +38,9 @@ def speed_text(response: Response, peak: Peak) -> str:
     """
     last = peak.index == len(response.speeds) - 1
     beyond = "" if not peak.at_end else r"$\geq$ " if last else r"$\leq$ "
-    trend = response.trend[peak.index]
+    trend, (unit, _) = response.trend[peak.index], response.units["speed"]
     goes_on = f", {trend}" if trend in (GROWING, DYING_OUT) else ""
-    return beyond + response.units[0].speed.text(peak.Omega_c) + goes_on
+    return beyond + unit.number.format(unit.scale * peak.Omega_c) + goes_on
 
 
 def engine_order(axes: Axes, k: int, dashes: str, beside: float = 4) -> Annotation:

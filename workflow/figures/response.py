@@ -104,13 +104,14 @@ class Response:
         return (self.status == "sensitive") & (difference > SENSITIVE_FROM)
 
     @property
-    def units(self) -> tuple[units.Units, units.Units]:
-        """Units shown first, and those beside them: norms first where the scene gives speeds so.
+    def units(self) -> dict[str, tuple[units.Unit, units.Unit]]:
+        """By quantity the unit shown first, and that beside it.
 
-        The paper does; a scene that gives them in rad/s is shown in rpm and micrometres.
+        Norms are first where the scene gives its speeds in them, as the paper does; a scene that
+        gives them in rad/s is shown in rpm and micrometres.
         """
-        both = units.NORMS, units.of_engines(self.rom.f1, leading_gap(self.sweep))
-        return both if self.scene.speeds.unit == "over_f1" else both[::-1]
+        norms = self.scene.speeds.unit == "over_f1"
+        return units.both(norms, self.rom.f1, leading_gap(self.sweep))
 
     @property
     def names(self) -> str:

@@ -60,8 +60,8 @@ def over_speeds(
     drawn, (top, bottom) = style.subplots(
         style.DOUBLE, 5.5, 2, letters=True, sharex=True, height_ratios=(1.8, 1)
     )
-    largest = sweep.units[0].length.scale * np.nanmax(sweep.spectrum[:, 1:], initial=0)
-    scale = style.decades(largest, DECADES)
+    scale = sweep.units["length"][0].scale
+    scale = style.decades(scale * np.nanmax(sweep.spectrum[:, 1:], initial=0), DECADES)
     _map(top, sweep, scale)
     _overlay(top, sweep)
     _amplitudes(bottom, sweep, printed)
@@ -69,8 +69,9 @@ def over_speeds(
     hatch(drawn, (top, bottom), sweep, "spectrum")
     at_peaks = {peak.k: peak.Omega_c for peak in sweep.peaks}
     operating_lines(drawn, bottom, sweep.rom.f1, operating, at_peaks, "peak")
-    units.beside(top, *sweep.units, outward=30)  # beyond the names of engine orders
-    units.below(bottom, *sweep.units)
+    # beyond the names of engine orders
+    units.show(top.yaxis, style.beside, *sweep.units["frequency"], outward=30)
+    units.show(bottom.xaxis, style.below, *sweep.units["speed"])
     drawn.suptitle(sweep.title, fontsize=8)
     return drawn
 
@@ -82,10 +83,9 @@ def _map(axes: Axes, response: Response, scale: tuple[float, float]) -> None:
     speeds, amplitudes = style.over_speeds(response.speeds, response.spectrum[:, :bins])
     orders = style.edges(orders[:bins])
     across = np.broadcast_to(speeds[:, None], (len(speeds), len(orders)))
-    unit = response.units[0].length
+    unit, _ = response.units["length"]
     bar = {"label": f"{LABEL} {unit.label}", "extend": "both", "pad": 0.0, "aspect": 30}
-    cells = across, np.outer(speeds, orders), unit.scale * amplitudes
-    style.log_map(axes, *cells, scale, **bar)
+    style.log_map(axes, across, np.outer(speeds, orders), unit.scale * amplitudes, scale, **bar)
     axes.set(ylim=(0, SHOWN), xlim=style.limits(response.speeds))
 
 
@@ -106,7 +106,7 @@ def _overlay(axes: Axes, response: Response) -> None:
 
 def _amplitudes(axes: Axes, response: Response, printed: str | None) -> None:
     """Draw the amplitude along engine orders over the speed, and label the peaks."""
-    unit, second = (of.length for of in response.units)
+    unit, second = response.units["length"]
     for k, (dashes, colour) in CURVES.items():
         along = unit.scale * along_order(response.sweep, k)
         axes.plot(response.speeds, along, linestyle=dashes, color=colour, label=f"EO {k}")
@@ -115,7 +115,6 @@ def _amplitudes(axes: Axes, response: Response, printed: str | None) -> None:
     handles = [*axes.get_legend_handles_labels()[0], *paper]
     axes.legend(handles=handles, loc="center left", bbox_to_anchor=(1.12, 0.5), handlelength=1.6)
     axes.set(yscale="log", ylabel=f"amplitude\n{unit.label}")
-    axes.yaxis.set_major_formatter("{x:g}")
     style.beside(axes, second.scale / unit.scale, f"amplitude {second.label}")
     for peak in response.peaks:
         _name(axes, response, peak)
@@ -127,9 +126,8 @@ def _others(axes: Axes, response: Response) -> None:
     for peak in response.peaks:
         if peak.k not in CURVES:
             near = abs(response.speeds - peak.Omega_c) <= NEAR * peak.Omega_c
-            along = along_order(response.sweep, peak.k)[near]
-            scale = response.units[0].length.scale
-            axes.plot(response.speeds[near], scale * along, label=label, **OTHERS)
+            along = response.units["length"][0].scale * along_order(response.sweep, peak.k)
+            axes.plot(response.speeds[near], along[near], label=label, **OTHERS)
             label = None
 
 
@@ -145,7 +143,7 @@ def _printed(axes: Axes, response: Response, part: str) -> list[Patch]:
 
 def _name(axes: Axes, response: Response, peak: Peak) -> None:
     """Write k and the critical speed above the axes, with a line down to the peak."""
-    at = peak.Omega_c, response.units[0].length.scale * peak.amplitude
+    at = peak.Omega_c, response.units["length"][0].scale * peak.amplitude
     axes.plot(*at, ".", color=style.BLACK, markersize=4)
     axes.annotate(
         f"EO {peak.k}:  {speed_text(response, peak)}",

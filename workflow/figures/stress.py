@@ -18,7 +18,6 @@ LEVELS = 10  # of stress, few enough to read as contours
 VIEWS = {"pressure side": (0.3, 1.0, 0.55), "suction side": (0.3, -1.0, -0.55)}
 LIGHT = (1.0, 0.0)  # no shading: colours as in the colour bar
 MEGA = 1e-6
-RPM = 30 / np.pi  # of 1 rad/s
 END = 0.005  # of the height, the part that counts as tip or hub
 
 
@@ -68,7 +67,7 @@ def title(numbers: dict[str, Any]) -> str:
     away = total["settled"]
     lines = [
         f"scene {numbers['scene']}, blade {numbers['blade']}{chance}",
-        f"{numbers['speed_rad_s'] * RPM:.0f} rpm ({numbers['speed_over_f1']:.3f} $f_1(0)$), "
+        f"{numbers['speed_rad_s'] * 30 / np.pi:.0f} rpm ({numbers['speed_over_f1']:.3f} $f_1(0)$), "
         f"after {numbers['time_rounds']:.2f} revolutions",
         *([f"away from clamp and contact {_averaged(away)} MPa"] if away else []),
         f"anywhere {_averaged(total)} MPa; of rotation alone {_averaged(static)} MPa",

@@ -57,6 +57,7 @@ RC = {
     "pdf.fonttype": 42,
     "savefig.dpi": 300,
     "axes.grid": False,
+    "axes.formatter.min_exponent": 4,  # logarithmic axes: smaller powers of ten are plain numbers
 }
 
 
@@ -156,10 +157,9 @@ def log_map(
     of the colour bar.
     """
     axes.set_facecolor(NO_RUN)
-    look = {"norm": LogNorm(*scale), "cmap": MAP.with_extremes(under="white", bad=NO_RUN)}
     seen = np.ma.maximum(values, scale[0] / 10)  # a logarithm of 0 would be no number
-    mapped = axes.pcolormesh(x, y, seen, rasterized=True, **look)
-    axes.figure.colorbar(mapped, ax=axes, format="{x:g}", **bar)
+    colours = {"norm": LogNorm(*scale), "cmap": MAP.with_extremes(under="white", bad=NO_RUN)}
+    axes.figure.colorbar(axes.pcolormesh(x, y, seen, rasterized=True, **colours), ax=axes, **bar)
 
 
 def decades(largest: float, count: int) -> tuple[float, float]:

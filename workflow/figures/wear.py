@@ -30,7 +30,7 @@ def over_speeds(sweep: Response, printed: str | None = None) -> Figure:
     """
     drawn, panels = style.subplots(style.DOUBLE, 4.4, 3, sharex=True, height_ratios=(3, 1, 1))
     top, depth, lobes = panels
-    unit = sweep.units[0].length
+    unit, _ = sweep.units["length"]
     worn = unit.scale * sweep.wear
     scale = style.decades(worn.max(), DECADES)
     speeds, depths = style.over_speeds(sweep.speeds, worn)
@@ -45,21 +45,20 @@ def over_speeds(sweep: Response, printed: str | None = None) -> Figure:
     hatch(drawn, panels, sweep, "wear")
     top.set_xlim(style.limits(sweep.speeds))
     mark_speeds(top, sweep)
+    units.show(lobes.xaxis, style.below, *sweep.units["speed"])
     drawn.suptitle(sweep.title, fontsize=8)
     return drawn
 
 
 def _below(depth: Axes, lobes: Axes, response: Response) -> None:
     """Draw the deepest wear and the number of worn lobes at each speed."""
-    unit = response.units[0].length
+    unit, _ = response.units["length"]
     deepest = np.where(response.has_result, unit.scale * response.wear.max(axis=1), np.nan)
     depth.plot(response.speeds, deepest, color=style.BLACK)
     depth.set(yscale="log", ylabel=f"deepest\n{unit.label}")
-    depth.yaxis.set_major_formatter("{x:g}")
     counts = [lobe_count(wear) for wear in response.wear[response.has_result]]
     lobes.plot(response.speeds[response.has_result], counts, ".", color=style.BLACK, markersize=3)
     lobes.set(ylabel="worn\nlobes", ylim=(0, max([6, *counts]) + 1))
-    units.below(lobes, *response.units)
     lobes.yaxis.set_major_locator(MultipleLocator(2))
 
 
@@ -82,34 +81,25 @@ def _printed(axes: Axes, response: Response, part: str) -> None:
 def profiles(sweeps: Sequence[Response]) -> Figure:
     """Depth over the casing angle at the k = 4 peak, one line for each scene."""
     drawn, axes = style.subplots(style.SINGLE, 2.6)
-    names = apart([f"scene {of.sweep.attrs['name']}, {of.label}" for of in sweeps])
-    for response, name, (dashes, colour) in zip(sweeps, names, LINES, strict=True):
-        _profile(axes, response, name, linestyle=dashes, color=colour)
+    for response, (dashes, colour) in zip(sweeps, LINES, strict=True):
+        _profile(axes, response, linestyle=dashes, color=colour)
     _nearest(axes, sweeps[0])
-    first, second = (of.length for of in sweeps[0].units)
+    first, second = sweeps[0].units["length"]
     axes.set(ylabel=LABEL + first.label, ylim=(0, None))
     style.beside(axes, second.scale / first.scale, f"worn depth {second.label}")
     drawn.legend(loc="outside upper center", ncols=1)
     return drawn
 
 
-def apart(labels: Sequence[str]) -> list[str]:
-    """Labels without the parts, between commas, that all have; equal ones whole."""
-    parts = [label.split(", ") for label in labels]
-    common = set.intersection(*map(set, parts))
-    alone = [", ".join(part for part in of if part not in common) for of in parts]
-    return alone if any(alone) else list(labels)
-
-
-def _profile(axes: Axes, response: Response, name: str, **line: Any) -> None:
+def _profile(axes: Axes, response: Response, **line: Any) -> None:
     """Draw the profile at the peak; without a peak, the legend says so."""
     peak = response.by_order.get(ENGINE_ORDER)
     if peak is None:
-        axes.plot([], [], label=f"{name}: no speed near the peak", **line)
+        axes.plot([], [], label=f"{response.names}: no speed near the peak", **line)
         return
     chance = ", not predictable" if response.sensitive("wear")[peak.index] else ""
-    label = f"{name}: {speed_text(response, peak)}{chance}"
-    worn = response.units[0].length.scale * response.wear[peak.index]
+    label = f"{response.names}: {speed_text(response, peak)}{chance}"
+    worn = response.units["length"][0].scale * response.wear[peak.index]
     over_casing(axes, worn, label=label, **line)
 
 

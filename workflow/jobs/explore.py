@@ -37,7 +37,10 @@ def write(
         "largest_Pa": largest,
     }
     told = panel(read_json(answers), operating, of)
-    more = {"motion": motion, "answers": told, "operating": operating}
-    shown = facts(response, names["blade"], names["scene"]) | more
+    shown = facts(response, names["blade"], names["scene"]) | {
+        "motion": motion,
+        "answers": told,
+        "operating": operating,
+    }
     write_whole(page.html(shown, arrays(response) | of_blade), html)
     write_json(of, stress)
