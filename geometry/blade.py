@@ -262,6 +262,24 @@ def settings_of_basis(basis: EnrichedBasis | PaperBasis) -> dict[str, Any]:
     return basis.model_dump(mode="json", exclude={"tolerance_percent"})
 
 
+class Margins(Settings):
+    """Crossings whose margins from the operating speeds are told, besides peaks of sweeps."""
+
+    modes: int = Field(
+        default=4,
+        ge=1,
+        le=10,
+        description="Modes, from the first, whose crossings with engine orders are compared with "
+        "design and idle speed; the model is checked for ten",
+    )
+    orders: list[Annotated[int, Field(ge=1, le=200)]] = Field(
+        default=[1, 2, 3, 4, 5, 6],
+        min_length=1,
+        description="Their engine orders; those of casings are added, and with mode 1 those of "
+        "`peaks`",
+    )
+
+
 SOURCES = ("sections", "section_table", "cad", "mesh_file")
 
 
@@ -287,6 +305,9 @@ class Blade(SettingsFile):
     )
     idle_rpm: Annotated[float, Field(gt=0)] | None = Field(
         default=None, description="Idle speed, marked in figures and summary (rpm)"
+    )
+    margins: Margins = Field(
+        default=Margins(), description="Crossings whose margins from these speeds are told"
     )
     geometry_at_rpm: Annotated[float, Field(gt=0)] | None = Field(
         default=None,

@@ -22,7 +22,7 @@ from geometry.project import Provenance, code_hash, file_hash, sealed
 from geometry.tip import cartesian
 from rom.model import CODE, DIRECTIONS, Rom, RomError
 
-OPTIONAL = ("points", "f1", "growth")
+OPTIONAL = ("points", "f1", "growth", "speeds")
 PAGE = "rom/README.md, A reduced model from elsewhere,"
 SPEEDS = 33  # over [0, Omega_m], at which K must be positive definite
 DEFINITE = 1e-14  # of the largest eigenvalue: round-off
@@ -150,7 +150,7 @@ def _values(path: str | Path) -> dict[str, Any]:
 
 def _rom(found: dict[str, Any], blade: str, mesh: str) -> Rom:
     """The model of the values in a file, with the settings by which a coarser one is made."""
-    arrays = ("M", "K", "xi", "points", "camber", "growth")
+    arrays = ("M", "K", "xi", "points", "camber", "growth", "speeds")
     values = {name: np.asarray(found[name], float) for name in arrays if name in found}
     values.setdefault("points", np.empty((0, 3)))
     scalars = {name: float(found.get(name, np.nan)) for name in ("Omega_m", "span", "f1")}

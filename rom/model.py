@@ -1,5 +1,6 @@
 """``rom-<directions>.nc``: the reduced model, the only file of a blade that the simulator needs."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -11,7 +12,7 @@ from geometry.hats import hats, middles
 from geometry.project import Provenance, UserError
 from geometry.stored import Stored, stored
 from geometry.tip import on_line
-from rom.polynomial import evaluate
+from rom.polynomial import evaluate, interpolate
 
 CODE = ("fem.assemble", "rom.between", "rom.reduce")  # modules that compute its numbers
 SAME_F1 = 1e-6  # relative difference of squares, for round-off
@@ -86,6 +87,10 @@ class Rom(Stored):
         "m (rad s-1)^-power",
         default_factory=lambda: np.empty((0, 0)),
         long_name="static growth of the tip's radius",
+    )
+    # of its basis, at which K(Omega) is that of the full model, ascending; empty: not known
+    speeds: NDArray[np.float64] = stored(
+        "speed", "rad s-1", default_factory=lambda: np.empty(0), long_name="speeds of the basis"
     )
 
     def require_possible(self) -> None:
@@ -221,6 +226,17 @@ class Rom(Stored):
                 f"linear"
             )
         return np.sqrt(values), Phi
+
+    def beyond(self, degree: int) -> Callable[[float], NDArray[np.float64]]:
+        """Natural frequencies omega (n,), rad/s, over Omega above Omega_m, rad/s.
+
+        omega^2 is a polynomial in Omega^2 of this ``degree``, through the last ``degree`` + 1
+        speeds of the basis. That of a rotating blade is nearly linear (Southwell): how far degree 2
+        differs from 1 tells how far both are to be trusted.
+        """
+        last = self.speeds[-1 - degree :]
+        through = interpolate(np.array([self.modes(speed)[0] ** 2 for speed in last]), last)
+        return lambda Omega: np.sqrt(np.maximum(evaluate(through, Omega), 0.0))
 
     def save(self, path: str | Path) -> None:
         """Write NetCDF, with the powers of Omega."""

@@ -58,6 +58,7 @@ def reduce(
         f1=float(np.sqrt(lowest) / (2 * np.pi)),
         span=fom.span,
         growth=growth_of(fom),
+        speeds=fom.speeds,
         provenance=fom.provenance.made(CODE, basis=settings_of_basis(basis), directions=directions),
     )
     return rom, T

@@ -4,6 +4,7 @@ One row for each peak, with the uncertainty of each number or that it is not kno
 """
 
 from collections.abc import Iterable, Mapping, Sequence
+from itertools import chain
 from math import isfinite
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -11,7 +12,7 @@ from typing import Any, NamedTuple
 from geometry.project import csv_text, read_json
 from simulate.errors.neighbour import CHAOTIC, ONE_MOTION, TWO_MOTIONS
 from simulate.scene import DYING_OUT, GROWING, TRENDS
-from workflow import markdown
+from workflow import margins, markdown
 from workflow.markdown import Number
 
 RPM_PER_HZ = 60.0
@@ -90,13 +91,17 @@ type Row = dict[str, Any]
 type Stress = dict[float, tuple[float, float | None]]  # by speed over f1(0): largest, its error, Pa
 
 
-def numbers(files: Any, operating: Mapping[str, Mapping[str, float]]) -> dict[str, Any]:
+def numbers(files: Any, operating: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
     """The summary of ``files.answers``, one for each scene, with their stresses.
 
-    These are of ``files.stress``, ``peak.json``, and of ``files.pages``, ``stress.json``.
+    These are of ``files.stress``, ``peak.json``, and of ``files.pages``, ``stress.json``; margins
+    are of ``files.roms``, the model of each scene.
 
-    ``operating``: speeds of the operating lines by name, rpm, by blade.
+    ``operating``: as of ``simulate.sweeps.peak.critical``, by blade.
     """
+    from rom.model import Rom  # slow imports, which Snakemake does without
+    from simulate.sweeps.peak import critical
+
     stress, pages = (
         {of["scene"]: of for of in map(read_json, getattr(files, name, []))}
         for name in ("stress", "pages")
@@ -105,21 +110,23 @@ def numbers(files: Any, operating: Mapping[str, Mapping[str, float]]) -> dict[st
         _scene(
             of,
             {**_of_page(pages.get(of["scene"])), **_of_state(stress.get(of["scene"]))},
-            operating.get(of["blade"], {}),
+            (lines := operating.get(of["blade"], {})) and critical(Rom.load(rom), lines),
         )
-        for of in map(read_json, files.answers)
+        for of, rom in zip(map(read_json, files.answers), files.roms, strict=True)
     ]
     return {"scenes": scenes}
 
 
-def _scene(of: Mapping[str, Any], stress: Stress, lines: Mapping[str, float]) -> dict[str, Any]:
+def _scene(of: Mapping[str, Any], stress: Stress, found: Mapping[str, Any]) -> dict[str, Any]:
+    """One scene; ``found``: what its margins are of."""
     rows = [_row(of, answer, stress) for answer in of["peaks"]]
     return {
         **{key: of[key] for key in TOLD},
         "answers_s": sum(answer["seconds"] for answer in of["peaks"]),
         "runs": sum(answer["runs"] for answer in of["peaks"]),
         "rows": rows,
-        "lines": [_line(name, rpm, rows) for name, rpm in lines.items()],
+        "operating": found,
+        "margins": margins.rows(found, [row for row in rows if row["k"]], _of_model(of)),
     }
 
 
@@ -174,9 +181,13 @@ def _speed_error(of: Mapping[str, Any], answer: Mapping[str, Any]) -> float | No
     """Uncertainty of a critical speed, rpm: spacing of the sweep, error of the frequencies."""
     if answer["k"] is None or answer["spacing"] is None or answer["at_end"]:
         return None
-    relative = (of["doubt"]["basis"] or 0.0) + (of["doubt"]["mesh"] or 0.0)
-    apart = answer["spacing"] + relative * answer["Omega_c"]
+    apart = answer["spacing"] + _of_model(of) * answer["Omega_c"]
     return RPM_PER_HZ * of["f1_Hz"] * apart
+
+
+def _of_model(of: Mapping[str, Any]) -> float:
+    """Relative error of the frequencies, as far as it is known."""
+    return (of["doubt"]["basis"] or 0.0) + (of["doubt"]["mesh"] or 0.0)
 
 
 def _of_state(state: Mapping[str, Any] | None) -> Stress:
@@ -202,26 +213,15 @@ def _key(over_f1: float) -> float:
     return round(over_f1, 9)
 
 
-def _line(name: str, rpm: float, rows: Sequence[Row]) -> dict[str, Any]:
-    """An operating line, and the peak nearest to it."""
-    peaks = [row for row in rows if row["k"]]
-    near = min(peaks, key=lambda row: abs(row["rpm"] / rpm - 1), default=None)
-    return {
-        "name": name,
-        "rpm": rpm,
-        "k": near and near["k"],
-        "nearest_rpm": near and near["rpm"],
-        "distance": near and near["rpm"] / rpm - 1,
-    }
-
-
 def table(summary: Mapping[str, Any]) -> str:
     """Markdown: a table for each scene, what is not known, and what the numbers are."""
     parts = ["# Summary", ""]
     for scene in summary["scenes"]:
         heads, rows = shown(scene)
         parts += [f"## {scene['scene']}", "", about(scene), ""]
-        parts += [markdown.table(heads, rows), "", *notes(scene), ""]
+        near = margins.table(scene["margins"])
+        of_margins = [markdown.table(margins.HEADS, near), ""] if near else []
+        parts += [markdown.table(heads, rows), "", *of_margins, *notes(scene), ""]
     return "\n".join([*parts, meaning()]) + "\n"
 
 
@@ -246,15 +246,17 @@ def terminal(summary: Mapping[str, Any]) -> str:
 
 
 def panel(
-    answers: Mapping[str, Any], operating: Mapping[str, float], stress: Mapping[str, Any]
+    answers: Mapping[str, Any], found: Mapping[str, Any], stress: Mapping[str, Any]
 ) -> dict[str, Any]:
     """The same of one scene's ``answers`` for its page, with the speeds of the rows over f1(0).
 
-    ``stress``: as of ``stress.json``.
+    ``found``: as of ``simulate.sweeps.peak.critical``; ``stress``: as of ``stress.json``.
     """
-    scene = _scene(answers, _of_page(stress), operating)
+    scene = _scene(answers, _of_page(stress), found)
     heads, rows = shown(scene)
+    near = {"heads": margins.HEADS, "rows": margins.table(scene["margins"])}
     told = {"about": about(scene), "heads": heads, "rows": rows, "notes": notes(scene)}
+    told |= {"margins": near}
     return told | {"speeds": [row["over_f1"] for row in scene["rows"]], "meaning": meaning()}
 
 
@@ -278,7 +280,7 @@ def shown(scene: Mapping[str, Any]) -> tuple[list[str], list[list[str]]]:
     return heads, [
         [
             str(row["k"] or "-"),
-            _speed(row),
+            margins.speed(row),
             f"{row['over_f1']:.3f}",
             f"{row['hz']:.1f}" if row["hz"] else "-",
             *(_cell(row, column) for column in kept),
@@ -287,12 +289,6 @@ def shown(scene: Mapping[str, Any]) -> tuple[list[str], list[list[str]]]:
         ]
         for row in scene["rows"]
     ]
-
-
-def _speed(row: Row) -> str:
-    error = row["rpm_error"]
-    spread = " (end)" if row["bound"] else f" ±{markdown.two_digits(error)}" if error else ""
-    return f"{row['rpm']:.0f}{spread}"
 
 
 def _cell(row: Row, column: Column) -> str:
@@ -346,7 +342,7 @@ def about(scene: Mapping[str, Any]) -> str:
 
 def notes(scene: Mapping[str, Any]) -> list[str]:
     """Crossings, ends of the sweep, operating lines, what is not known, and what that cost."""
-    lines = [*at_speeds(scene), *map(_of_line, scene["lines"])]
+    lines = [*at_speeds(scene), *_of_lines(scene)]
     numbers = {name for row in scene["rows"] for name in row["values"]}
     missing = {part for row in scene["rows"] for parts in row["unknown"].values() for part in parts}
     told = [PARTS[part] for part in PARTS if part in missing]
@@ -360,6 +356,14 @@ def notes(scene: Mapping[str, Any]) -> list[str]:
         lines.append(f"Friction locks the tip from {scene['mu_crit']:.3f} on.")
     cost = f"{scene['runs']} runs, {scene['answers_s']:.1f} s of CPU time"
     return [*lines, f"Uncertainties: {cost}; the sweep: {scene['sweep_s']:.0f} s."]
+
+
+def _of_lines(scene: Mapping[str, Any]) -> list[str]:
+    """What is next to the operating speeds, and of what that is; nothing without these."""
+    found = scene["operating"]
+    swept = [RPM_PER_HZ * scene["f1_Hz"] * end["over_f1"] for end in scene["ends"]]
+    lines = [margins.nearest(found, scene["margins"], name) for name in found.get("lines", ())]
+    return [*chain(*lines), margins.covered(found, swept)] if found else []
 
 
 def at_speeds(scene: Mapping[str, Any]) -> list[str]:
@@ -383,17 +387,6 @@ def _seen(end: Mapping[str, Any]) -> str:
     return ", ".join(known + [end["status"]] * (end["status"] != "ok"))
 
 
-def _of_line(line: Mapping[str, Any]) -> str:
-    if line["k"] is None:
-        return f"{line['name'].capitalize()} speed {line['rpm']:.0f} rpm: no critical speed found."
-    side = "above" if line["distance"] > 0 else "below"
-    return (
-        f"{line['name'].capitalize()} speed {line['rpm']:.0f} rpm: nearest critical speed "
-        f"{line['nearest_rpm']:.0f} rpm (k = {line['k']}), "
-        f"{markdown.percent(max(abs(line['distance']), markdown.LEAST))} {side}."
-    )
-
-
 def over_gap(row: Row) -> list[str]:
     """Speed over f1(0) and crossing, amplitude and wear over the gap, as figures have them."""
     speeds = [f"{row[name]:.3f}" for name in ("over_f1", "over_crossing")]
@@ -404,6 +397,20 @@ def csv(summary: Mapping[str, Any]) -> str:
     """One row for each peak, units in the header; cells are empty where nothing is known."""
     records = [_record(scene, row) for scene in summary["scenes"] for row in scene["rows"]]
     return csv_text([*records[:1], *(record.values() for record in records)])
+
+
+def margins_csv(summary: Mapping[str, Any]) -> str:
+    """One row for each scene, operating line and critical speed; empty cells as in ``csv``."""
+    records = [
+        {"scene": scene["scene"], "blade": scene["blade"], **row}
+        for scene in summary["scenes"]
+        for row in scene["margins"]
+    ]
+    rows = (
+        [_digits(of) if isinstance(of, float) else of for of in record.values()]
+        for record in records
+    )
+    return csv_text([*records[:1], *rows])
 
 
 def _record(scene: Mapping[str, Any], row: Row) -> dict[str, Any]:
@@ -441,7 +448,8 @@ def last_words(folder: str | Path) -> str:
     summary = read_json(Path(folder, "summary.json"))
     pages = sorted(str(path) for path in Path(folder).glob("*/*/explore.html"))
     where = [
-        f"Summary: {folder}/summary.md, {folder}/summary.csv. Figures: {folder}/figures/.",
+        f"Summary: {folder}/summary.md, {folder}/summary.csv, {folder}/margins.csv.",
+        f"Figures: {folder}/figures/.",
         *([f"To explore: {', '.join(pages)}."] if pages else []),
         f"Logs: {folder}/<blade>/logs/, {folder}/<blade>/<scene>/logs/.",
     ]

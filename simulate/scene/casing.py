@@ -169,6 +169,11 @@ class Casing(Settings):
         """Harmonics that travel."""
         return [of for of in self.harmonics or () if of.speed_rad_s != 0]
 
+    @property
+    def orders(self) -> set[int]:
+        """Engine orders with which harmonics that stand excite a blade."""
+        return {of.order for of in self.harmonics or () if of.order and not of.speed_rad_s}
+
     def inward(
         self, theta: NDArray[np.float64], gap: float, time: float = 0.0
     ) -> NDArray[np.float64]:

@@ -1,12 +1,14 @@
-"""Response peaks of a sweep along engine orders, and the linear crossings of f1 with them.
+"""Response peaks of a sweep along engine orders, and linear crossings of frequencies with them.
 
 Speeds are over f1(0), amplitudes over the gap at xi = 1/16. Figures, summaries and claims all use
 these peaks.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import partial
+from itertools import product
+from math import isnan
 from typing import Any
 
 import numpy as np
@@ -19,9 +21,11 @@ from simulate.errors.signals import amplitude, leading_gap
 from simulate.scene import BESIDE
 from simulate.sweeps.dataset import scene_of
 
+RPM = 30 / np.pi  # of rad/s
 ORDERS = range(3, 15)  # engine orders along which peaks are sought
 # Speeds over the crossing at which a peak may lie: contact stiffens, a tangential force may soften
 STIFFENED, SOFTENED, HIGHEST = 0.97, 0.93, 1.4
+BEYOND = 1.25  # of Omega_m: no farther than there are frequencies extrapolated
 PROMINENCE = 0.5  # least prominence of a peak over its height
 LEAST = 0.1  # gaps, least amplitude of a reported peak
 LEAST_AT_END = 1.0  # gaps, least amplitude of a reported peak at an end of the sweep
@@ -77,28 +81,77 @@ class Peak:
         return vars(self) | ({"over_crossing": self.over_crossing} if self.k else {})
 
 
-def crossing(rom: Rom, k: int) -> float:
-    """Linear crossing f1(Omega) = k Omega, Eq. (21), over f1(0); nan where it is above Omega_m.
+def crossing(rom: Rom, k: int, mode: int = 1, beyond: int = 0) -> float:
+    """Linear crossing of a mode, f(Omega) = k Omega, Eq. (21), over f1(0); nan above Omega_m.
+
+    With a degree ``beyond`` that from Omega_m to ``BEYOND`` times it, of ``Rom.beyond``.
 
     >>> round(crossing(rom, 4), 2)
     0.31
     """
     unit = rom.omega1
-    return crossing_of(lambda speed: rom.modes(speed * unit)[0][0] / unit, k, rom.Omega_m / unit)
+    top = rom.Omega_m / unit
+    omega = rom.beyond(beyond) if beyond else lambda Omega: rom.modes(Omega)[0]
+    ends = (top, BEYOND * top) if beyond else (0.0, top)
+    return crossing_of(lambda speed: omega(speed * unit)[mode - 1] / unit, k, *ends)
 
 
-def crossing_of(f1: Callable[[float], float], k: int, highest: float) -> float:
-    """Speed up to ``highest`` at which f1(speed) = k speed; nan where there is none.
+def crossing_of(f: Callable[[float], float], k: int, lowest: float, highest: float) -> float:
+    """Speed from ``lowest`` to ``highest`` at which f(speed) falls below k speed; nan without one.
 
-    >>> round(crossing_of(lambda speed: 1 + 0.4 * speed**2, 4, highest=0.5), 4)
+    >>> round(crossing_of(lambda speed: 1 + 0.4 * speed**2, 4, lowest=0.0, highest=0.5), 4)
     0.2566
     """
     from scipy.optimize import brentq  # a slow import, which many jobs do not need
 
     def above(speed: float) -> float:
-        return f1(speed) - k * speed
+        return f(speed) - k * speed
 
-    return float(brentq(above, 0, highest, xtol=1e-9)) if above(highest) < 0 else float("nan")
+    if not above(highest) < 0 <= above(lowest):
+        return float("nan")
+    return float(brentq(above, lowest, highest, xtol=1e-9))
+
+
+def critical(rom: Rom, operating: Mapping[str, Any]) -> dict[str, Any]:
+    """What the margins of operating speeds are of. Gyroscopic terms are not in the model.
+
+    Parameters
+    ----------
+    operating : ``lines``, speeds by name, rpm; the number of ``modes``, their engine ``orders``,
+        and further ones, at which ``peaks`` are sought, of mode 1 alone
+
+    Returns
+    -------
+    ``operating``, with ``Hz``, frequencies of the modes at each line; ``crossings``; the speeds,
+    rpm, ``through`` which f^2 goes on linearly above the last of them, and ``up_to`` which.
+    """
+    modes, pairs = operating["modes"], [(1, k) for k in operating["peaks"]]
+    pairs += product(range(1, modes + 1), operating["orders"])
+    found = [_crossing(rom, mode, k) for mode, k in pairs]
+    return {
+        **operating,
+        "Hz": {
+            name: (rom.modes(rpm / RPM)[0][:modes] / (2 * np.pi)).tolist()
+            for name, rpm in operating["lines"].items()
+        },
+        "crossings": [of for of in found if not isnan(of["rpm"])],
+        "through": (RPM * rom.speeds[-2:]).tolist(),
+        "up_to": BEYOND * RPM * rom.Omega_m,
+    }
+
+
+def _crossing(rom: Rom, mode: int, k: int) -> dict[str, Any]:
+    """A crossing, nan rpm without one, and that of the quadratic: they differ above Omega_m."""
+    own, *ahead = (RPM * rom.omega1 * crossing(rom, k, mode, degree) for degree in (0, 1, 2))
+    linear, quadratic = ahead if isnan(own) else (own, own)
+    return {
+        "what": "extrapolated crossing" if isnan(own) else "crossing",
+        "mode": mode,
+        "k": k,
+        "rpm": linear,
+        "quadratic_rpm": quadratic,
+        "bound": False,
+    }
 
 
 def along_order(runs: xr.Dataset, k: int | None = None) -> NDArray[np.float64]:

@@ -89,6 +89,18 @@ def basis(keys):
             6207.0,
             {"le": pytest.approx(MOST_TIP_SPEED / 0.5624)},
         ),
+        (
+            {SPEED: f"{SPEED}\nidle_rpm: 3000\nmargins: {{modes: 11}}"},
+            "margins.modes",
+            11,
+            {"le": 10},
+        ),
+        (
+            {SPEED: f"{SPEED}\ndesign_rpm: 5000\nmargins: {{orders: []}}"},
+            "margins.orders",
+            [],
+            {"min_length": 1},
+        ),
         ({SPEED: "max_speed_rad_s: true"}, "max_speed_rad_s", True, None),
         ({PATCHES: "patches: yes"}, "interface.patches", True, None),
         (

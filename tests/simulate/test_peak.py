@@ -54,10 +54,10 @@ REPORTED = [  # peaks, and the orders that are reported
 
 def test_the_crossing_of_a_stiffening_mode_is_that_of_theory():
     """f1^2 = 1 + B Omega^2 meets k Omega at 1 / sqrt(k^2 - B)."""
-    assert crossing_of(lambda speed: np.sqrt(1 + 5.6 * speed**2), 4, 0.4) == pytest.approx(
+    assert crossing_of(lambda speed: np.sqrt(1 + 5.6 * speed**2), 4, 0.0, 0.4) == pytest.approx(
         1 / np.sqrt(16 - 5.6), abs=1e-8
     )
-    assert np.isnan(crossing_of(lambda speed: np.sqrt(1 + 5.6 * speed**2), 1, 0.4))
+    assert np.isnan(crossing_of(lambda speed: np.sqrt(1 + 5.6 * speed**2), 1, 0.0, 0.4))
 
 
 def test_a_peak_along_an_order_has_its_speed_and_height(coarse_rom):

@@ -31,6 +31,7 @@ def made_rom():
         f1=F1,
         span=SPAN,
         provenance=PROVENANCE,
+        speeds=0.4 * w[0] * np.array([0, 0.5, 1]),
     )
 
 

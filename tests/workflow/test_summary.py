@@ -77,13 +77,13 @@ def cells(found):
 def summed(tmp_path):
     """The summary of changed answers, of a recorded state and of a page if these are given."""
 
-    def summed(answer=None, stress=None, operating=None, page=None, **of):
+    def summed(answer=None, stress=None, page=None, **of):
         given = {"answers": OF | {"peaks": [ANSWER | (answer or {})]} | of}
         given |= {"stress": stress, "pages": page}
         files = {name: [tmp_path / f"{name}.json"] for name, values in given.items() if values}
         for name, (file,) in files.items():
             write_json(given[name], file)
-        return summary.numbers(SimpleNamespace(**files), {"b": operating or {}})
+        return summary.numbers(SimpleNamespace(**files, roms=[""]), {})
 
     return summed
 
@@ -187,22 +187,6 @@ def test_a_peak_with_two_motions_has_both_numbers(summed):
     assert (row["word"], float(row["amplitude other (um)"])) == (TWO_MOTIONS, pytest.approx(9))
 
 
-@pytest.mark.parametrize(
-    ("answer", "rpm", "k", "distance"),
-    [
-        ({}, 4000.0, 4, 0.05),
-        ({}, 5000.0, 4, -0.16),
-        ({}, 1900.0, 4, 4200 / 1900 - 1),
-        ({"k": None, "crossing": None}, 4000.0, None, None),
-    ],
-)
-def test_the_nearest_critical_speed_of_an_operating_line(summed, answer, rpm, k, distance):
-    found = summed(answer, operating={"design": rpm})
-    (line,) = found["scenes"][0]["lines"]
-    assert (line["k"], line["distance"]) == (k, pytest.approx(distance))
-    assert f"Design speed {rpm:.0f} rpm" in summary.terminal(found)
-
-
 def test_a_run_without_a_result_has_its_status(summed):
     failed = {"k": None, "crossing": None, "status": "diverged", "verdict": "", "numbers": {}}
     row = read_csv(summed(failed | {"errors": {}, "spacing": None}))
@@ -210,7 +194,7 @@ def test_a_run_without_a_result_has_its_status(summed):
 
 
 def test_the_panel_of_a_page_has_the_rows_of_the_summary(summed):
-    panel = summary.panel(OF, {"design": 4000.0}, PAGE)
+    panel = summary.panel(OF, {}, PAGE)
     heads, rows = summary.shown(summed(page=PAGE)["scenes"][0])
     assert (panel["heads"], panel["rows"], panel["speeds"]) == (heads, rows, [0.35])
-    assert any("Design speed" in note for note in panel["notes"])
+    assert panel["margins"]["rows"] == []

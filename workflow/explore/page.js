@@ -294,8 +294,11 @@ function showAnswers(codes) {
   byId("answers").hidden = false;
   const cells = (kind, values) => values.map((value) => `<${kind}>${value}</${kind}>`).join("");
   byId("of_scene").textContent = told.about;
-  byId("peaks").innerHTML = `<thead><tr>${cells("th", told.heads)}</tr></thead><tbody>` +
-    told.rows.map((row) => `<tr>${cells("td", row)}</tr>`).join("") + "</tbody>";
+  const table = ({ heads, rows }) => `<thead><tr>${cells("th", heads)}</tr></thead><tbody>` +
+    rows.map((row) => `<tr>${cells("td", row)}</tr>`).join("") + "</tbody>";
+  byId("peaks").innerHTML = table(told);
+  byId("margins").innerHTML = table(told.margins);
+  byId("margins").parentElement.hidden = !told.margins.rows.length;
   byId("notes").innerHTML = told.notes.map((note) => `<li>${note}</li>`).join("");
   byId("explained").textContent = told.meaning;
   byId("peaks").querySelectorAll("tbody tr").forEach((row, i) =>

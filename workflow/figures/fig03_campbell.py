@@ -1,29 +1,25 @@
 """Fig. 3: Campbell diagram, reduced model (lines) and full model (markers)."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import MultipleLocator
 from numpy.typing import NDArray
 
 from rom.check import RomCheck
 from rom.model import Rom
-from simulate.sweeps.peak import crossing
-from workflow.figures import style
-from workflow.figures.marks import (
-    NO_LINES,
-    RPM_PER_HZ,
-    engine_order,
-    frequencies_over_speed,
-    operating_lines,
-)
+from simulate.sweeps.peak import BEYOND, critical
+from workflow import margins
+from workflow.figures import style, units
+from workflow.figures.marks import engine_order, frequencies_over_speed, operating_lines
 from workflow.paper.printed import CROSSING, HALF_DIGIT
 
 MODES = 7  # compared by the paper
 ENGINE_ORDERS = (4, 5, 6, 8)
 OVER_ALL = (4, 8, 16, 32)  # with all modes
+PLAIN: Mapping[str, Any] = {"lines": {}, "modes": 0, "orders": (), "peaks": ENGINE_ORDERS}
 HEADROOM = 0.06  # above f1, for the labels of the engine orders
 OURS = {"marker": "s", "color": style.VERMILLION, "markersize": 4.5, "linestyle": "none"}
 BEHIND = {"facecolor": "white", "edgecolor": "none", "pad": 0.6}
@@ -31,60 +27,95 @@ BEHIND = {"facecolor": "white", "edgecolor": "none", "pad": 0.6}
 
 @style.styled
 def draw(
-    rom: Rom, check: RomCheck, printed: bool = False, operating: Mapping[str, float] = NO_LINES
+    rom: Rom, check: RomCheck, printed: bool = False, operating: Mapping[str, Any] = PLAIN
 ) -> Figure:
     """Mode 1 with the engine orders that cross it, and all modes.
 
-    ``printed``: whether the crossings that the paper prints are marked; ``operating``: speeds of
-    the operating lines, rpm, by name.
+    ``printed``: whether the crossings that the paper prints are marked; ``operating``: as of
+    ``simulate.sweeps.peak.critical``. With operating speeds the diagram goes on above the top
+    speed of the model, and says below which crossings are next to them.
     """
     drawn, (first, every) = style.subplots(
         style.DOUBLE, 3.2, 1, 2, letters=True, width_ratios=(1.25, 1)
     )
-    f1 = _frequencies(first, rom, check, 1)
+    found, lines = critical(rom, operating), operating["lines"]
+    f1 = _frequencies(first, rom, check, 1, beyond=bool(lines))
     margin = HEADROOM * f1.max()
     first.set_ylim(f1.min() - 2 * margin, f1.max() + margin)
-    for k in ENGINE_ORDERS:
-        engine_order(first, k, "--")
-    found = {k: speed for k in ENGINE_ORDERS if np.isfinite(speed := crossing(rom, k))}
-    _crossings(first, found)
-    if printed:
-        _printed(first)
-    operating_lines(drawn, first, rom.f1, operating, found, "crossing")
-    first.legend(loc="lower right", handlelength=1.2, borderaxespad=0.3)
-    modes = _frequencies(every, rom, check, MODES)
+    modes = _frequencies(every, rom, check, MODES, beyond=bool(lines))
     for mode, last in enumerate(modes[-1], start=1):
         style.note(every, (every.get_xlim()[1], last), str(mode), (5, 0), va="center")
     every.set_ylim(0, 1.2 * modes.max())
-    every.yaxis.set_major_locator(MultipleLocator(5))
-    for k in OVER_ALL:
-        engine_order(every, k, "--", beside=14)  # beyond the numbers of the modes
+    rows = [row | {"rpm_error": None} for row in margins.rows(found)]  # that of the mesh: not known
+    shown = margins.near(rows) if lines else found["crossings"]
+    both = units.both(printed, rom.f1)
+    for axes, orders, of_mode_1 in ((first, ENGINE_ORDERS, True), (every, OVER_ALL, False)):
+        marked = [of for of in shown if (of["mode"] == 1) == of_mode_1]
+        _crossings(axes, orders, marked, rom.f1, both["speed"][0])
+        units.show(axes.xaxis, style.below, *both["speed"])
+    if printed:
+        _printed(first)
+    told = {name: "\n".join(margins.nearest(found, rows, name)) for name in lines}
+    operating_lines(drawn, first, rom.f1, lines, told)
+    operating_lines(None, every, rom.f1, lines)
+    opaque = {"frameon": True, "framealpha": 1.0, "edgecolor": "none"}
+    first.legend(loc="lower right", handlelength=1.2, borderaxespad=0.3, **opaque)
     _state_error(every, rom, check)
-    style.beside(first, rom.f1, style.HZ_LABEL)
-    for axes in (first, every):
-        style.below(axes, RPM_PER_HZ * rom.f1, style.RPM_LABEL)
+    units.show(first.yaxis, style.beside, *both["frequency"])
+    units.show(every.yaxis, lambda *_: None, *both["frequency"])  # modes are named at the right
     drawn.suptitle(f"blade {rom.provenance.blade}", fontsize=8)
     return drawn
 
 
-def _frequencies(axes: Axes, rom: Rom, check: RomCheck, modes: int) -> NDArray[np.float64]:
-    """Draw natural frequencies over the speed; return those of the reduced model, (n, modes)."""
+def _frequencies(
+    axes: Axes, rom: Rom, check: RomCheck, modes: int, beyond: bool
+) -> NDArray[np.float64]:
+    """Draw natural frequencies over the speed; return those of the reduced model, (n, modes).
+
+    ``beyond``: also those above the top speed, extrapolated.
+    """
     speeds, reduced = frequencies_over_speed(rom, modes)
     unit = rom.omega1
     axes.plot(speeds, reduced, color=style.BLACK, label=f"reduced model, $n$ = {rom.n}")
     look = {"color": style.BLUE, "markerfacecolor": "white", "label": "full model"}
     axes.plot(check.speeds / unit, check.full[:, :modes] / unit, "o", **look)
-    axes.set(xlabel=style.SPEED_LABEL, ylabel=style.FREQUENCY_LABEL, xlim=(0, speeds[-1]))
+    if beyond:
+        further = np.linspace(1, BEYOND) * speeds[-1]
+        ahead = np.array([rom.beyond(1)(speed * unit)[:modes] / unit for speed in further])
+        look = {"color": style.BLACK, "linestyle": (0, (2, 1)), "label": "extrapolated"}
+        axes.plot(further, ahead, **look)
+        speeds, reduced = further, np.vstack([reduced, ahead])
+    axes.set_xlim(0, speeds[-1])
     return reduced
 
 
-def _crossings(axes: Axes, speeds: Mapping[int, float]) -> None:
-    """Mark the crossings of f1 with engine orders, and their speeds."""
-    at = [(speed, k * speed) for k, speed in speeds.items()]
+def _crossings(
+    axes: Axes,
+    orders: Sequence[int],
+    found: Sequence[Mapping[str, Any]],
+    f1_Hz: float,
+    unit: units.Unit,
+) -> None:
+    """Draw engine orders, and mark crossings with their speed in a unit."""
+    for k in sorted({*orders, *(of["k"] for of in found)}):
+        engine_order(axes, k, "--", beside=14)  # beyond the numbers of the modes
+    over_f1 = {(of["rpm"] / (units.RPM_PER_HZ * f1_Hz), of["k"]) for of in found}
+    at = [
+        (speed, k * speed)
+        for speed, k in sorted(over_f1, reverse=True)
+        if speed <= axes.get_xlim()[1]
+    ]
     axes.plot(*np.reshape(at, (-1, 2)).T, label="crossing and its speed", **OURS)
-    look = {"color": style.VERMILLION, "fontsize": 8, "ha": "right", "bbox": BEHIND}
+    look = {
+        "color": style.VERMILLION,
+        "ha": "right",
+        "va": "bottom",
+        "rotation": -40,
+        "bbox": BEHIND,
+    }
     for place in at:
-        style.note(axes, place, f"{place[0]:.3f}", (-5, 4), **look)
+        speed, *_ = unit.number.format(unit.scale * place[0]).split()
+        style.note(axes, place, speed, (0, 2), **look)
 
 
 def _printed(axes: Axes) -> None:
@@ -113,4 +144,5 @@ def _state_error(axes: Axes, rom: Rom, check: RomCheck) -> None:
         ha="center",
         va="top",
         fontsize=7,
+        bbox=BEHIND,
     )

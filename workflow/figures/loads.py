@@ -41,7 +41,7 @@ def draw(
     answers: Sequence[Mapping[str, Any]],
     rom: Rom,
     stress: Sequence[Mapping[str, Any]] = (),
-    operating: Mapping[str, float] = NO_LINES,
+    operating: Mapping[str, Any] = NO_LINES,
 ) -> Figure:
     """Loads of scenes of one blade; ``answers`` of each, ``stress`` of those with a page."""
     known = {of["scene"]: of for of in stress}
@@ -90,7 +90,7 @@ PANELS = (  # number, label, scale
 
 @style.styled
 def panels(
-    loads: Sequence[Loads], f1: float, blade: str, operating: Mapping[str, float] = NO_LINES
+    loads: Sequence[Loads], f1: float, blade: str, operating: Mapping[str, Any] = NO_LINES
 ) -> Figure:
     """A panel for each number that is known, lines over the speed, and the peaks with their ±."""
     shown = [panel for panel in PANELS if any(_has(of, panel[0]) for of in loads)]
@@ -108,9 +108,8 @@ def panels(
         if name == "torque":
             at = {"ha": "right", "va": "bottom", "transform": axes.transAxes}
             axes.text(1, 1.03, _unknown(loads), fontsize=7, **at)
-    critical = {p["k"]: p["Omega_c"] for of in loads for p in of.peaks if p["k"]}
     for axes in used:
-        operating_lines(drawn if axes is used[0] else None, axes, f1, operating, critical, "peak")
+        operating_lines(drawn if axes is used[0] else None, axes, f1, operating["lines"])
     units.show(used[-1].xaxis, style.below, *units.both(False, f1)["speed"])
     style.legend(drawn, "lower left", ncols=2)
     drawn.suptitle(f"blade {blade}", fontsize=8)

@@ -22,8 +22,9 @@ from workflow.figures.response import Response
 from workflow.figures.units import RPM_PER_HZ
 
 CASING_ANGLE = r"casing angle $\theta$ (deg)"
-NO_LINES: Mapping[str, float] = MappingProxyType({})  # no operating lines
-FOR_LEGEND = 0.35  # in, height of two operating lines in a legend
+NO_LINES: Mapping[str, Any] = MappingProxyType({"lines": {}})  # no operating speeds
+NO_TEXTS: Mapping[str, str] = MappingProxyType({})
+FOR_LINE = 0.175  # in, height of a line of text in their legend
 OPERATING = ((0, (7, 2, 1.5, 2)), (0, (1.5, 1.5)))  # dashes of design and idle speed
 CROSSINGS_AT, PEAKS_AT = 1.035, 1.15  # of the axes' height
 NO_RESULT, NOT_PREDICTABLE, NO_CONTACT = "/////", "\\\\\\\\\\", "...."  # hatches
@@ -61,32 +62,21 @@ def operating_lines(
     axes: Axes,
     f1_Hz: float,
     lines: Mapping[str, float],
-    critical: Mapping[int, float],
-    what: str,
+    told: Mapping[str, str] = NO_TEXTS,
 ) -> None:
-    """Draw operating speeds (rpm, by name); a legend below has the nearest critical speeds.
+    """Draw operating speeds (rpm, by name), with a legend below.
 
-    ``drawn``: figure of that legend; None without it.
-    ``critical``: speeds over f1(0), of kind ``what``, by engine order.
+    ``drawn``: figure of that legend; None without it. ``told``: its texts, by name.
     """
     handles, labels = [], []
     for (name, rpm), dashes in zip(lines.items(), OPERATING, strict=False):
-        at = rpm / (RPM_PER_HZ * f1_Hz)
         look = {"color": style.GREEN, "linestyle": dashes, "linewidth": 1.2, "zorder": 1.5}
-        handles.append(axes.axvline(at, **look))
-        labels.append(f"{name} {rpm:.0f} rpm{nearest(at, critical, what)}")
+        handles.append(axes.axvline(rpm / (RPM_PER_HZ * f1_Hz), **look))
+        labels.append(told.get(name, f"{name} {rpm:.0f} rpm"))
     if handles and drawn:
-        drawn.legend(handles, labels, loc="outside lower right", handlelength=3)
-        drawn.set_figheight(drawn.get_figheight() + FOR_LEGEND)
-
-
-def nearest(at: float, critical: Mapping[int, float], what: str) -> str:
-    """Which critical speed is nearest to a speed, and how far away, for a label; or nothing."""
-    if not critical:
-        return ""
-    k, speed = min(critical.items(), key=lambda item: abs(item[1] / at - 1))
-    side = "above" if speed > at else "below"
-    return f": nearest {what}, $k$ = {k}, {100 * abs(speed / at - 1):.1f} % {side}"
+        drawn.legend(handles, labels, loc="outside lower right", handlelength=2.5)
+        text = "\n".join(labels)
+        drawn.set_figheight(drawn.get_figheight() + FOR_LINE * (1 + text.count("\n")))
 
 
 def over_casing(axes: Axes, values: NDArray[np.float64], **line: Any) -> None:

@@ -1,6 +1,7 @@
 """Spectra of the displacement at xi = 1/16: over the speed, and over the time at a peak."""
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -50,12 +51,12 @@ APART = 0.055  # least distance of two labels, over the axes' height
 
 @style.styled
 def over_speeds(
-    sweep: Response, printed: str | None = None, operating: Mapping[str, float] = NO_LINES
+    sweep: Response, printed: str | None = None, operating: Mapping[str, Any] = NO_LINES
 ) -> Figure:
     """Map of amplitude over frequency and speed; below, amplitude along the engine orders.
 
     ``printed``: part of the paper whose critical speeds are marked, as of ``CRITICAL``;
-    ``operating``: speeds of the operating lines, rpm, by name.
+    ``operating``: as of ``simulate.sweeps.peak.critical``.
     """
     drawn, (top, bottom) = style.subplots(
         style.DOUBLE, 5.5, 2, letters=True, sharex=True, height_ratios=(1.8, 1)
@@ -67,8 +68,7 @@ def over_speeds(
     _amplitudes(bottom, sweep, printed)
     bottom.set_ylim(scale)
     hatch(drawn, (top, bottom), sweep, "spectrum")
-    at_peaks = {peak.k: peak.Omega_c for peak in sweep.peaks}
-    operating_lines(drawn, bottom, sweep.rom.f1, operating, at_peaks, "peak")
+    operating_lines(drawn, bottom, sweep.rom.f1, operating["lines"])
     # beyond the names of engine orders
     units.show(top.yaxis, style.beside, *sweep.units["frequency"], outward=30)
     units.show(bottom.xaxis, style.below, *sweep.units["speed"])

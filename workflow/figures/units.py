@@ -45,6 +45,8 @@ def show(
     """
     axis.set_label_text(first.label)
     if first.scale != 1.0:
-        ticks = AutoLocator().tick_values(*(first.scale * axis.get_view_interval()))
+        low, high = axis.get_view_interval()
+        ticks = AutoLocator().tick_values(first.scale * low, first.scale * high)
         axis.set_ticks(ticks / first.scale, [f"{tick:.6g}" for tick in ticks])
+        axis.set_view_interval(low, high, ignore=True)  # to which ticks beyond it were added
     second_axis(axis.axes, second.scale, second.label, **place)

@@ -285,6 +285,22 @@ def settings_told(wildcards):
     return Told(SCENES[wildcards.scene].model_dump(mode="json"))
 
 
+def operating_of(blade):
+    """Operating speeds of a blade, rpm by name, and the crossings of which margins are told.
+
+    Empty without such speeds. All scenes to deliver of the blade have the same: orders of its file
+    and of standing casings with its modes, and those around whose peaks speeds are added with f1.
+    """
+    settings = blade_settings(blade)
+    if not settings.operating_rpm:
+        return {}
+    scenes = [scene for scene in DELIVERED.values() if scene.blade == blade]
+    orders = set(settings.margins.orders).union(*(scene.casing.orders for scene in scenes))
+    peaks = {k for scene in scenes if scene.peaks for k in scene.peaks.orders} - orders
+    of_modes = {"modes": settings.margins.modes, "orders": sorted(orders), "peaks": sorted(peaks)}
+    return {"lines": settings.operating_rpm} | of_modes
+
+
 def of_scenes(pattern):
     """``pattern`` for every sweep to deliver, with its blade."""
     return [pattern.format(blade=scene.blade, scene=name) for name, scene in SWEEPS.items()]

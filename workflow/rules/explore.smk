@@ -29,7 +29,7 @@ rule explore:
         run="workflow.jobs.explore:write",
         blade=blade_file,
         uses=blade_uses("material", "prestress"),
-        operating=lambda wildcards: blade_settings(wildcards.blade).operating_rpm,
+        operating=lambda wildcards: operating_of(wildcards.blade),
     message:
         "Page to explore scene {wildcards.scene}"
     script:

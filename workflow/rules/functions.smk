@@ -11,7 +11,7 @@ FIGURES = table.Figures(
     delivered=DELIVERED,
     explored=EXPLORED,
     directions=directions_of,
-    operating=lambda blade: blade_settings(blade).operating_rpm,
+    operating=operating_of,
     blades={
         "matrices": lambda blade: blade not in FOREIGN,
         "mesh": lambda blade: blade in MESHED,

@@ -24,6 +24,7 @@ rule answers:
 rule summary:
     input:
         answers=of_scenes("results/{blade}/{scene}/answers.json"),
+        roms=[f"results/{scene.blade}/rom-{scene.directions}.nc" for scene in SWEEPS.values()],
         stress=[
             f"results/{scene.blade}/{name}/peak.json"
             for name, scene in SWEEPS.items()
@@ -34,6 +35,7 @@ rule summary:
     output:
         json="results/summary.json",
         csv="results/summary.csv",
+        margins="results/margins.csv",
         markdown=report(
             "results/summary.md",
             caption="../report/summary.rst",
@@ -45,7 +47,7 @@ rule summary:
     localrule: True
     params:
         run="workflow.summary:numbers",
-        given={"operating": {name: blade.operating_rpm for name, blade in BLADES.items()}},
+        given={"operating": {blade: operating_of(blade) for blade in BLADES}},
     message:
         "Summary of the run"
     script:

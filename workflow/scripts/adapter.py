@@ -30,7 +30,8 @@ from workflow.usage import cpu_time, usage
 CLEARED = "\r\x1b[2K"  # the line of a terminal, and the cursor at its beginning
 PAUSE = 5.0  # s, least time between two lines of progress on the terminal
 NAMED = 4  # most inputs in a sentence
-TEXTS = {"markdown": "table", "html": "html", "csv": "csv"}  # function of a text, by its output
+# function of a text, by its output
+TEXTS = {"markdown": "table", "html": "html", "csv": "csv", "margins": "margins_csv"}
 # Waits for the end of a job, and says so where it ends without a word to it.
 WATCH = """
 read -r ended && exit

@@ -41,7 +41,9 @@ def crossing(speeds: ArrayLike, omega: ArrayLike, k: int) -> float:
     """
     over_rest = np.array([speeds, omega]) / omega[0]
     squares = np.polyfit(*over_rest**2, 2)
-    return crossing_of(lambda speed: np.sqrt(np.polyval(squares, speed**2)), k, over_rest[0, -1])
+    return crossing_of(
+        lambda speed: np.sqrt(np.polyval(squares, speed**2)), k, 0.0, over_rest[0, -1]
+    )
 
 
 def edge_cuts_table(rows: Rows) -> str:

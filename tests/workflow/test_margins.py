@@ -1,0 +1,176 @@
+"""Margins of operating speeds: by hand, and the same in summary, CSV, page and Campbell diagram."""
+
+import csv
+import re
+from dataclasses import replace
+from io import StringIO
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from made_sweeps import F1, PROVENANCE, STIFFENING, made_rom
+from test_summary import ANSWER, OF
+
+from geometry.project import write_json
+from rom.check import RomCheck
+from simulate.sweeps.peak import critical
+from workflow import margins, summary
+from workflow.figures import fig03_campbell
+
+RPM = 60 * F1  # of a speed over f1(0)
+CROSSING = 1 / np.sqrt(16 - STIFFENING)  # of k = 4 with mode 1
+DESIGN, TOP, IDLE = CROSSING / 1.12, 0.29, 0.2  # over f1(0): the crossing is beyond the top
+LINES = {"design": DESIGN * RPM, "idle": IDLE * RPM}
+OPERATING = {"lines": LINES, "modes": 3, "orders": [1, 2, 3, 4, 5, 6], "peaks": [7, 8]}
+PEAK = ANSWER | {"k": 5, "Omega_c": 0.25, "spacing": 0.01, "crossing": 0.227}
+MINE = OF | {"f1_Hz": F1, "blade": "reference", "peaks": [PEAK]}
+NEXT = re.compile(r"next (\w+): (\d+)[^,]*, ([^:]*): speed (\S+) %, frequency (\S+) %")
+
+
+@pytest.fixture(scope="module")
+def rom():
+    """f^2 = f0^2 + B Omega^2 up to 0.29 f1(0)."""
+    top = TOP * 2 * np.pi * F1
+    return replace(made_rom(), Omega_m=top, speeds=top * np.array([0, 0.5, 1]))
+
+
+@pytest.fixture
+def told(rom, tmp_path):
+    """The summary of answers, on the made model."""
+
+    def told(lines=LINES, **of):
+        write_json(MINE | of, tmp_path / "answers.json")
+        rom.save(tmp_path / "rom.nc")
+        files = SimpleNamespace(answers=[tmp_path / "answers.json"], roms=[tmp_path / "rom.nc"])
+        return summary.numbers(files, {"reference": OPERATING | {"lines": lines}})
+
+    return told
+
+
+def row_of(found, line, what, k, mode=None):
+    (row,) = (
+        row
+        for row in found["scenes"][0]["margins"]
+        if (row["line"], row["what"], row["k"], row["mode"]) == (line, what, k, mode)
+    )
+    return row
+
+
+def test_margins_by_hand(told):
+    """Of speed: critical over operating speed less 1; of frequency: (f - k Omega) / (k Omega)."""
+    found = told()
+    row = row_of(found, "design", "extrapolated crossing", 4, mode=1)
+    f1 = np.sqrt(1 + STIFFENING * DESIGN**2)
+    assert row["rpm"] == pytest.approx(CROSSING * RPM, rel=1e-8)
+    assert row["speed_margin"] == pytest.approx(0.12, rel=1e-7)
+    assert row["frequency_margin"] == pytest.approx(f1 / (4 * DESIGN) - 1, rel=1e-9)
+    assert row["rpm_error"] == pytest.approx(1e-3 * row["rpm"], rel=1e-4)  # basis and mesh
+    below = row_of(found, "design", "crossing", 5, mode=1)
+    at = 1 / np.sqrt(25 - STIFFENING)
+    assert below["speed_margin"] == pytest.approx(at / DESIGN - 1, rel=1e-7)
+    assert below["frequency_margin"] == pytest.approx(f1 / (5 * DESIGN) - 1, rel=1e-9)
+    rub = row_of(found, "idle", "rub peak", 5)
+    assert (rub["rpm"], rub["frequency_margin"]) == (pytest.approx(0.25 * RPM), None)
+    assert rub["rpm_error"] == pytest.approx((0.01 + 1e-3 * 0.25) * RPM)
+    assert rub["speed_margin"] == pytest.approx(0.25)
+
+
+def test_nearest_first_and_what_is_far_is_in_the_csv_file_alone(told):
+    found = told()
+    for name in LINES:
+        rows = [abs(r["speed_margin"]) for r in found["scenes"][0]["margins"] if r["line"] == name]
+        assert rows == sorted(rows)
+    near = margins.table(found["scenes"][0]["margins"])
+    assert [row[:4] for row in near if row[0].startswith("design")] == [
+        [f"design {DESIGN * RPM:.0f}", "rub peak", "-", "5"],
+        [f"design {DESIGN * RPM:.0f}", "extrapolated crossing", "1", "4"],
+        [f"design {DESIGN * RPM:.0f}", "crossing", "1", "5"],
+    ]
+    assert len(near) < len(found["scenes"][0]["margins"]) == len(of_csv(found))
+
+
+def of_csv(found):
+    return list(csv.DictReader(StringIO(summary.margins_csv(found))))
+
+
+def test_a_crossing_beyond_the_top_speed_is_told_alike_everywhere(told, rom):
+    """12 % above the design speed, of k = 4: in summary, terminal, CSV, page and Campbell."""
+    found = told(peaks=[])
+    line = (
+        rf"Design speed {DESIGN * RPM:.0f} rpm, next above: {CROSSING * RPM:.0f}( ±[\d.]+)? rpm, "
+    )
+    line += r"extrapolated crossing of EO 4 with mode 1: speed \+12.0 %, frequency \+8.0 %"
+    page = summary.panel(MINE | {"peaks": []}, critical(rom, OPERATING), {})
+    texts = (summary.table(found), summary.terminal(found), "\n".join(page["notes"]), legend(rom))
+    for text in texts:
+        assert re.search(line, text)
+        # every number of every line is the same, and only the figure does not know the errors
+        assert NEXT.findall(text) == NEXT.findall(texts[0]) and len(NEXT.findall(text)) == 4
+    for text in texts[:3]:
+        assert "Gyroscopic terms are not in the model" in text
+        assert "from 1200 to 2400 rpm" in text and "up to 2175 rpm" in text  # swept, extrapolated
+    (row,) = (row for row in of_csv(found) if row["k"] == "4" and row["line"] == "design")
+    assert float(row["speed_margin"]) == pytest.approx(0.12)
+
+
+def test_tables_of_summary_page_and_file_and_marks_of_the_campbell_diagram_are_the_same(told, rom):
+    found = told()
+    rows = found["scenes"][0]["margins"]
+    page = summary.panel(MINE, critical(rom, OPERATING), {})["margins"]
+    assert (page["heads"], page["rows"]) == (margins.HEADS, margins.table(rows))
+    for cells in page["rows"]:
+        assert f"| {' | '.join(cells)} |" in summary.table(found)
+    of_file = [float(row["rpm"]) for row in of_csv(found)]
+    assert of_file == pytest.approx([row["rpm"] for row in rows], rel=1e-5)
+    first, every, *_ = diagram(rom).axes
+    marked = [x * RPM for axes in (first, every) for x in squares(axes)]
+    near = {row["rpm"] for row in margins.near(rows) if row["mode"]}
+    assert sorted(marked) == pytest.approx(sorted(near))
+    texts = {text.get_text() for axes in (first, every) for text in axes.texts}
+    assert {f"{rpm:.0f}" for rpm in near} <= texts
+
+
+def squares(axes):
+    return [x for line in axes.lines if line.get_marker() == "s" for x in line.get_xdata()]
+
+
+def diagram(rom):
+    speeds = np.linspace(0, rom.Omega_m, 3)
+    full = np.array([rom.modes(speed)[0] for speed in speeds])
+    known = {"xi": np.array([0.5]), "compliance_error": np.zeros((3, 1, 1)), "highest": 1.0}
+    check = RomCheck(
+        speeds=speeds, full=full, reduced=full, between=np.nan, provenance=PROVENANCE, **known
+    )
+    return fig03_campbell.draw(rom, check, operating=OPERATING)
+
+
+def legend(rom):
+    (below,) = diagram(rom).legends
+    return "\n".join(text.get_text() for text in below.texts)
+
+
+def test_frequencies_of_the_campbell_diagram_go_on_dashed_to_a_quarter_above_the_top(rom):
+    ahead = [line for line in diagram(rom).axes[0].lines if line.get_label() == "extrapolated"]
+    speeds, f1 = ahead[0].get_data()
+    assert speeds[[0, -1]] == pytest.approx([TOP, 1.25 * TOP])
+    assert f1 == pytest.approx(np.sqrt(1 + STIFFENING * speeds**2))
+
+
+def test_where_nothing_is_near_the_next_are_told(told):
+    found = told({"design": 0.1 * RPM}, peaks=[])
+    assert margins.table(found["scenes"][0]["margins"]) == []
+    text = summary.terminal(found)
+    assert re.search(r"Design speed 600 rpm, next above: 785 ±0.79 rpm, crossing of EO 8", text)
+    assert "Design speed 600 rpm, next below: none up to 2175 rpm." in text
+
+
+def test_a_blade_without_operating_speeds_has_no_margins(told):
+    found = summary.panel(MINE, {}, {})
+    assert found["margins"]["rows"] == []
+    assert not any("Margins" in note or "next" in note for note in found["notes"])
+
+
+def test_an_unknown_difference_is_no_small_one():
+    row = {"rpm": 4000.0, "rpm_error": np.nan, "bound": False}
+    assert margins.speed(row) == "4000 (no ±)"
+    assert margins.speed(row | {"rpm_error": 0.0}) == "4000"
