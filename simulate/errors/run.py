@@ -68,7 +68,7 @@ class Run(Case):
 
     @property
     def line(self) -> str:
-        """Speed, status and why, and wall time, for logs."""
+        """Speed, status and why, whether it is steady, and wall time, for logs."""
         why = f" ({self.outcome.reason})" if self.outcome.reason else ""
-        end = f"{self.outcome.status}{why}"
+        end = f"{self.outcome.status}{why}, {self.outcome.trend}"
         return f"{self.setup.Omega:.6g} rad/s: {end}, {self.seconds:.2f} s"

@@ -9,10 +9,10 @@ from refused import refused
 from scenes import EXACT, of_steps, scene
 from scipy.signal import lfilter
 
-from geometry.project import SettingsError
+from geometry.project import ROOT, SettingsError
 from simulate.marching import WITH_RESULT, march, prepare
 from simulate.marching.trend import FEWEST, Rounds, time_constant, trend
-from simulate.scene import DYING_OUT, GROWING, STEADY, TOO_SHORT, TRENDS
+from simulate.scene import DYING_OUT, GROWING, STEADY, TOO_SHORT, TRENDS, Scene
 from simulate.sweeps.peak import crossing
 
 J = np.arange(400.0)
@@ -116,6 +116,14 @@ def test_what_is_recorded_of_the_last_rounds_does_not_go_with_it():
     history = RUB | {"record": RUB["record"] | {"history": {"chord": [0.5]}}}
     error = refused(SettingsError, scene, **history, rounds=20, until="steady")
     assert error.key == "until" and "record.history" in str(error)
+
+
+def test_the_first_peak_of_the_paper_still_grows_after_its_twenty_rounds(coarse_rom):
+    """Near 0.350 f1(0) with the ductile coating: its amplitude there is none of a steady motion."""
+    case = Scene.load(ROOT / "workflow/scenes/paper.yaml").but(liner={"strips": 8})
+    run = marched(case, coarse_rom, 0.35)
+    assert (run.status, run.trend, run.each.largest[1]) == ("ok", GROWING, 20.0)
+    assert run.time_constant == pytest.approx(15, rel=0.1)  # 0.29 %, k = 3.7
 
 
 # How drawn scenes refute a word: marched to ten time constants, or a quarter of the run longer
