@@ -24,7 +24,8 @@ def rows(
     Parameters
     ----------
     found : as of ``simulate.sweeps.peak.critical``; empty without operating speeds
-    peaks : of a sweep, each with k, rpm, rpm_error, and whether it is at an end of it (``bound``)
+    peaks : of a sweep, each with ``what`` it is, k, rpm, rpm_error, and whether it is at an end of
+        the sweep (``bound``)
     relative : error of the frequencies
 
     Returns
@@ -40,7 +41,7 @@ def rows(
     ]
     critical += [
         {
-            "what": "rub peak",
+            "what": of["what"],
             "mode": None,
             "k": of["k"],
             "rpm": of["rpm"],

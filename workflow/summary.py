@@ -120,13 +120,18 @@ def numbers(files: Any, operating: Mapping[str, Mapping[str, Any]]) -> dict[str,
 def _scene(of: Mapping[str, Any], stress: Stress, found: Mapping[str, Any]) -> dict[str, Any]:
     """One scene; ``found``: what its margins are of."""
     rows = [_row(of, answer, stress) for answer in of["peaks"]]
+    peaks = [
+        row | {"what": f"rub peak ({row['course']['trend']})" if moves(row) else "rub peak"}
+        for row in rows
+        if row["k"]
+    ]
     return {
         **{key: of[key] for key in TOLD},
         "answers_s": sum(answer["seconds"] for answer in of["peaks"]),
         "runs": sum(answer["runs"] for answer in of["peaks"]),
         "rows": rows,
         "operating": found,
-        "margins": margins.rows(found, [row for row in rows if row["k"]], _of_model(of)),
+        "margins": margins.rows(found, peaks, _of_model(of)),
     }
 
 
@@ -254,10 +259,15 @@ def panel(
     """
     scene = _scene(answers, _of_page(stress), found)
     heads, rows = shown(scene)
-    near = {"heads": margins.HEADS, "rows": margins.table(scene["margins"])}
-    told = {"about": about(scene), "heads": heads, "rows": rows, "notes": notes(scene)}
-    told |= {"margins": near}
-    return told | {"speeds": [row["over_f1"] for row in scene["rows"]], "meaning": meaning()}
+    return {
+        "about": about(scene),
+        "heads": heads,
+        "rows": rows,
+        "margins": {"heads": margins.HEADS, "rows": margins.table(scene["margins"])},
+        "notes": notes(scene),
+        "speeds": [row["over_f1"] for row in scene["rows"]],
+        "meaning": meaning(),
+    }
 
 
 def columns(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:

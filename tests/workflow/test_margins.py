@@ -13,6 +13,7 @@ from test_summary import ANSWER, OF
 
 from geometry.project import write_json
 from rom.check import RomCheck
+from simulate.scene import GROWING
 from simulate.sweeps.peak import critical
 from workflow import margins, summary
 from workflow.figures import fig03_campbell
@@ -73,6 +74,12 @@ def test_margins_by_hand(told):
     assert (rub["rpm"], rub["frequency_margin"]) == (pytest.approx(0.25 * RPM), None)
     assert rub["rpm_error"] == pytest.approx((0.01 + 1e-3 * 0.25) * RPM)
     assert rub["speed_margin"] == pytest.approx(0.25)
+
+
+def test_a_rub_peak_that_grows_says_so(told):
+    found = told(peaks=[PEAK | {"course": ANSWER["course"] | {"trend": GROWING}}])
+    assert row_of(found, "design", "rub peak (growing)", 5)["rpm"] == pytest.approx(0.25 * RPM)
+    assert f"rub peak ({GROWING}) of EO 5" in summary.terminal(found)
 
 
 def test_nearest_first_and_what_is_far_is_in_the_csv_file_alone(told):
