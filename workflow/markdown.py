@@ -6,7 +6,8 @@ from typing import NamedTuple
 
 LEAST = 1e-4  # smaller uncertainties and changes, relative, are not told apart
 NOT_KNOWN = "(no ±)"  # without any uncertainty
-DIGITS = 3  # of a value, where its uncertainty allows as many
+DIGITS = 3  # of a value without an uncertainty
+MOST = 5  # of one with it: to ``LEAST`` of itself
 
 
 def table(head: Sequence[object], rows: Iterable[Iterable[object]]) -> str:
@@ -60,12 +61,17 @@ class Number(NamedTuple):
 
     @property
     def shown(self) -> str:
-        """The value alone, to the first digit of its uncertainty, three digits at most."""
-        value = self.value
+        """The value alone, to the first digit of its uncertainty, ``MOST`` digits at most.
+
+        Without an uncertainty ``DIGITS``, or all of those before the point.
+        """
+        value, digits = self.value, DIGITS
         if self.error and value and isfinite(self.error):
-            first, last = (floor(log10(abs(of))) for of in (value, self.error))
-            value = rounded(value, min(max(first - last + 1, 1), DIGITS))
-        return f"{value:.{DIGITS}g}" if abs(value) < 1000 else f"{value:.0f}"
+            first, last = (floor(log10(abs(of))) for of in (value, rounded(self.error, 1)))
+            digits = min(max(first - last + 1, 1), MOST)
+        if self.error or abs(value) < 1000:
+            value = rounded(value, digits)
+        return f"{value:.{MOST}g}" if abs(value) < 1000 else f"{value:.0f}"
 
     @property
     def share(self) -> str:

@@ -74,10 +74,12 @@ MEANING = {  # of the columns
     "that of the other",
     CHAOTIC: "the gaps' tenth digit changes the numbers by over 1 %",
 }
+FINER = {"finer", "companion"}  # second runs of other fineness: one of them
 PARTS = {  # of uncertainties, that may not be known
+    "twin": "what a twin changes",
     "model": "error of the model",
     "mesh": "error of the mesh",
-    "fineness": "error of step, strips and patches (no run of other fineness)",
+    "fineness": "error of step, strips and patches (no result of other fineness)",
     "speeds": "amplitude between the speeds of the sweep (peaks: adds speeds)",
 }
 
@@ -85,7 +87,11 @@ PARTS = {  # of uncertainties, that may not be known
 TOLD = ("scene", "blade", "f1_Hz", "gap_m", "dofs", "crossings", "status", "reasons", "ends")
 TOLD += ("doubt", "no_torque", "mu_crit", "sweep_s")
 
-COURSE = ("trend", "time_constant", "largest_round", "wears")  # of ``dataset.course``
+COURSE = {  # of ``dataset.course``: unit and its scale from SI
+    "time_constant": ("rounds", 1.0),
+    "largest_round": ("round", 1.0),
+    "wears": ("mm3 per round", 1e9),
+}
 
 type Row = dict[str, Any]
 type Stress = dict[float, tuple[float, float | None]]  # by speed over f1(0): largest, its error, Pa
@@ -170,16 +176,17 @@ def _row(of: Mapping[str, Any], answer: Mapping[str, Any], stress: Stress) -> Ro
 def _unknown(doubt: Mapping[str, float | None], parts: Mapping[str, Any]) -> dict[str, list[str]]:
     """Parts of the uncertainty that are not known: those of ``ALL`` numbers, and of the amplitude.
 
-    ``parts``: relative changes by second run.
+    ``parts``: relative changes by second run; None where this has no result.
     """
+    failed = {name for name, changes in parts.items() if None in changes.values()}
     of_all = {
-        "model": doubt["basis"] is not None,
-        "mesh": doubt["mesh"] is not None,
-        "fineness": not parts or bool({"finer", "companion"} & {*parts}),
+        "twin": "twin" in failed,
+        "model": doubt["basis"] is None or "model" in failed,
+        "mesh": doubt["mesh"] is None or "mesh" in failed,
+        "fineness": bool((parts and not FINER & {*parts}) or failed & {*FINER, "patches"}),
     }
-    between = parts.get("speeds", {}).get("amplitude", 0.0) is not None
-    missing = [name for name, known in of_all.items() if not known]
-    return {ALL: missing, "amplitude": [] if between else ["speeds"]}
+    missing = [name for name, is_missing in of_all.items() if is_missing]
+    return {ALL: missing, "amplitude": ["speeds"] if "speeds" in failed else []}
 
 
 def _speed_error(of: Mapping[str, Any], answer: Mapping[str, Any]) -> float | None:
@@ -329,8 +336,8 @@ def moves(row: Row) -> bool:
 def _at_end(row: Row) -> str:
     """Whether the motion is steady, the time constant by which, and what is still worn."""
     course = row["course"]
-    if not course:
-        return "-"
+    if "wears" not in course:
+        return course.get("trend", "-")
     wears = Number(1e9 * course["wears"]).shown
     tau = course["time_constant"]
     known = f"τ {Number(tau).shown} rev." if tau and isfinite(tau) else "no damping"
@@ -436,7 +443,11 @@ def _record(scene: Mapping[str, Any], row: Row) -> dict[str, Any]:
         "engine order": row["k"],
         "status": row["status"],
         "word": row["word"],
-        **{name: row["course"].get(name) for name in COURSE},
+        "trend": row["course"].get("trend"),
+        **{
+            f"{name} ({unit})": _digits(row["course"].get(name), scale)
+            for name, (unit, scale) in COURSE.items()
+        },
         "not known of +-": " ".join(part for parts in row["unknown"].values() for part in parts),
         "speed (rpm)": _digits(row["rpm"]),
         "speed +- (rpm)": _digits(row["rpm_error"]),

@@ -10,6 +10,10 @@ from workflow.markdown import Number, percent, two_digits
     [
         (Number(1.2345, 0.031), "1.23 ± 0.03", "±2.5%"),
         (Number(1234.5, 0.0), "1234 ± 0", "±0.01%"),  # no exponent; not below a hundredth of 1 %
+        (Number(1.23456, 0.0012), "1.235 ± 0.001", "±0.097%"),  # within its uncertainty
+        (Number(12345.6, 2.0), "12346 ± 2", "±0.016%"),
+        (Number(1.2345, 0.096), "1.2 ± 0.1", "±7.8%"),
+        (Number(999.7), "1000", "(no ±)"),
         (Number(-0.05, 0.01), "-0.05 ± 0.01", "±20%"),
         (Number(0.0, 0.1), "0 ± 0.1", ""),
         (Number(14.37, 0.76), "14.4 ± 0.8", "±5.3%"),

@@ -169,6 +169,25 @@ def test_an_error_known_in_part_is_at_least_so_large(summed):
     assert read_csv(summed(between))["not known of +-"] == "speeds"
 
 
+@pytest.mark.parametrize(
+    ("part", "missing"),
+    [("twin", "twin"), ("model", "model"), ("mesh", "mesh"), ("patches", "fineness")],
+)
+def test_a_second_run_without_result_is_not_known(summed, part, missing):
+    """Its change is infinite, null in files: the uncertainty is larger than what is left."""
+    found = summed({"parts": ANSWER["parts"] | {part: dict.fromkeys(NUMBERS)}})
+    assert {"40 ≥5%", "170 ≥5%"} <= {*cells(found)}
+    assert read_csv(found)["not known of +-"] == missing
+    assert summary.PARTS[missing] in summary.terminal(found)
+
+
+def test_a_run_that_ended_early_has_a_trend_alone(summed):
+    found = summed({"status": "diverged", "verdict": "", "course": {"trend": GROWING}})
+    assert cells(found)[-2:] == [GROWING, "diverged"]
+    assert "damping" not in summary.terminal(found)
+    assert read_csv(found)["time_constant (rounds)"] == ""
+
+
 @pytest.mark.parametrize("trend", TRENDS)
 def test_a_run_says_whether_it_is_steady(summed, trend):
     """No bare +- stands at an amplitude that still grows, or dies out."""
@@ -177,7 +196,9 @@ def test_a_run_says_whether_it_is_steady(summed, trend):
     assert cells(found)[4] == (f"40 ±5%, {trend}" if moves else "40 ±5%")
     assert f"{trend}; τ 18.2 rev.; 0.003 mm³/rev." in cells(found)
     row = read_csv(found)
-    assert (row["trend"], float(row["largest_round"]), float(row["wears"])) == (trend, 17, 3e-12)
+    assert row["trend"] == trend and float(row["largest_round (round)"]) == 17
+    assert float(row["time_constant (rounds)"]) == 18.2
+    assert float(row["wears (mm3 per round)"]) == pytest.approx(3e-3)
 
 
 def test_a_peak_with_two_motions_has_both_numbers(summed):
