@@ -5,7 +5,7 @@ Numbers are single values: those of peaks, of the tables of designs and of studi
 """
 
 from collections.abc import Iterable
-from math import inf, isfinite, nan
+from math import ceil, inf, isfinite, nan
 
 import numpy as np
 from numpy.linalg import norm
@@ -45,7 +45,7 @@ def observables(run: Run, samples: int | None = None, rods: int | None = None) -
 
     `spectrum` (bins,), m, without bin 0; `wear` (eighths, rods), m, mean over each eighth of the
     chord, linear between rods; `history` (time, places) and `states` (time, n), m; `force_peak`
-    (rounds, eighths), N.
+    (rounds marched, eighths), N.
     """
     record, outcome = run.scene.record, run.outcome
     samples = samples or record.samples_per_round
@@ -62,7 +62,7 @@ def observables(run: Run, samples: int | None = None, rods: int | None = None) -
             by_share(outcome.wear, outcome.ends), rods or outcome.wear.shape[1]
         ),
         "history": lambda: outcome.u_r[thinned][:, 1:],
-        "force_peak": lambda: outcome.force_peak,
+        "force_peak": lambda: outcome.force_peak[: ceil(outcome.rounds)],
         "states": lambda: outcome.states[thinned],
     }
     return {name: found[name]() for name in record.observables}

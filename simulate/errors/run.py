@@ -1,6 +1,7 @@
 """Runs: what each is marched from, and what is known of it afterwards."""
 
 from dataclasses import dataclass, field, replace
+from math import ceil
 
 import numpy as np
 
@@ -8,6 +9,16 @@ from rom.model import Rom
 from simulate.errors.neighbour import Neighbour
 from simulate.marching import Left, Outcome, Setup, Worn, march, prepare
 from simulate.scene import Scene
+
+
+def as_long(scene: Scene, rounds: float) -> Scene:
+    """The scene without `until`, for as many ``rounds`` as a run of it took.
+
+    Of a run that broke off the last is whole, and there are as many as the spectrum needs.
+    """
+    if scene.until is None:
+        return scene
+    return scene.but(until=None, rounds=max(ceil(rounds), scene.record.spectrum_rounds or 1))
 
 
 @dataclass(frozen=True)
@@ -56,9 +67,7 @@ class Run(Case):
 
     def beside(self, other: Neighbour) -> Case:
         """As of a case, for as many rounds as the run took."""
-        if self.scene.until is None:
-            return super().beside(other)
-        scene = self.scene.but(until=None, rounds=round(self.outcome.rounds))
+        scene = as_long(self.scene, self.outcome.rounds)
         return Case(scene, self.rom, self.setup, self.left).beside(other)
 
     @property

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import inf
+from math import nan
 from time import perf_counter
 from typing import Any
 
@@ -21,7 +21,7 @@ from simulate.marching.modal import TURNS, padded_rows, rows_of
 from simulate.marching.setup import Setup, compiling, strip_stiffness
 from simulate.marching.start import Left, Worn, begin, left_by
 from simulate.marching.status import WITH_RESULT, Facts, judge, why_no_contact
-from simulate.marching.trend import Rounds, time_constant, trend
+from simulate.marching.trend import Rounds, looks, time_constant
 from simulate.scene import STEADY, TOO_SHORT, Record, Scene
 
 SCHEMES = {"central-difference": central_difference, "piecewise-exact": piecewise_exact}
@@ -49,7 +49,8 @@ class Outcome:
     casing_work: NDArray[np.float64]  # (rounds marched,), J, of the casing on the rods
     contact_share: float  # steps with contact over all steps
     each: Rounds  # what every round shows
-    time_constant: float = inf  # rounds, of the mode that responds in the last round
+    time_constant: float = nan  # rounds, of the mode that responds in the last round; inf without
+    # damping, nan where the run ended early
     trend: str = TOO_SHORT  # whether the motion is steady
     left: Left | None = None  # what the next march goes on from, where it is asked for
     reason: str = ""  # of a run without contact: why the tip did not touch
@@ -116,26 +117,29 @@ def march(scene: Scene, setup: Setup, left: Left | Worn | None = None) -> Outcom
     """
     kept, kernel, arguments = _start(scene, setup)
     scheme, strips, state, *_ = arguments(0)
-    first, steps = left.rounds if left else 0, setup.steps
+    first, steps, zeta = left.rounds if left else 0, setup.steps, scene.damping_ratio
     if left:
-        begin(state, left, scheme, SCHEMES[scene.integrator.scheme], setup, scene.damping_ratio)
+        begin(state, left, scheme, SCHEMES[scene.integrator.scheme], setup, zeta)
     before = _stored(scene, setup, state, first * steps)
     contacts, done, end, worked = 0, 0, RUNNING, [0.0]
-    seen, worn, word, tau = [], _worn(setup, state), TOO_SHORT, inf
+    each, tau, words = Rounds.unknown(scene.rounds, _worn(setup, state)), nan, [TOO_SHORT]
     standing = max(scene.casing.changes_until - first, 0)  # the first round that counts, from 0
-    while done < scene.rounds and end == RUNNING and not (word == STEADY and scene.stops_at(done)):
+    least = scene.record.spectrum_rounds or 1
+    judged = looks(standing, least, scene.rounds) if scene.until else {scene.rounds}
+    still = [STEADY] * 2 if scene.until else None  # at two looks in turn
+    while done < scene.rounds and end == RUNNING and words[-2:] != still:
         of_kernel = arguments(done, first)
         touched, step, end, node = kernel(*of_kernel)
         contacts += touched
         worked.append(float(state.energies[CASING]))
-        samples = of_kernel[3].samples[:, 0]
         if end == RUNNING:
-            seen.append((samples.min(), samples.max(), _worn(setup, state)))
+            samples = of_kernel[3].samples[:, 0]
+            each.add(done, samples, _worn(setup, state))
         done += 1
-        if scene.until or done == scene.rounds:
-            tau = time_constant(samples, setup.omega, setup.Omega, scene.damping_ratio)
-            whole = Rounds.of(seen, len(seen), worn)
-            word = trend(whole.swing[standing:], whole.worn[standing:], tau)
+        if done in judged or end != RUNNING:
+            whole = end == RUNNING
+            tau = time_constant(samples, setup.omega, setup.Omega, zeta) if whole else nan
+            words.append(each.trend(standing, tau))
     marched = (done - 1) * steps + step
     taken = np.full((scene.rounds, 1), steps)
     taken[done - 1] = step
@@ -167,9 +171,9 @@ def march(scene: Scene, setup: Setup, left: Left | Worn | None = None) -> Outcom
         force_tangential_mean=forces[:, 2] / taken,
         casing_work=np.diff(worked),
         contact_share=contacts / marched,
-        each=Rounds.of(seen, scene.rounds, worn),
+        each=each,
         time_constant=tau,
-        trend=word,
+        trend=words[-1],
         left=left_by(state, setup, first + done) if wanted and end == RUNNING else None,
         reason=why_no_contact(scene, strips, state.eps_p, first + done)
         if status == "no-contact"

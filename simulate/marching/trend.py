@@ -15,11 +15,15 @@ mode and the engine orders rise and fall within tau; wear may change the motion 
 
 Rounds in which the casing's distortion still changes do not count. The limits are those by which
 drawn scenes, marched ten time constants on, refute few of the words (tests/simulate/test_trend.py).
+
+A run that ends when it is steady is judged again and again, and may seem so once by chance: of
+drawn scenes that end at the first round at which they do three in a hundred are refuted. They end
+where they are steady at two looks in turn, the second after half as many rounds again: one is.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from math import inf
+from math import ceil, inf, nan
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,18 +44,27 @@ class Rounds:
     """What each round of a run shows; nan where it was not marched to its end."""
 
     extremes: NDArray[np.float64]  # (rounds, 2), m, least and largest u_r at xi = 1/16
-    worn: NDArray[np.float64]  # (rounds,), m3, volume worn off the liner
+    volume: NDArray[np.float64]  # (rounds + 1,), m3, worn off the liner before and after each
 
     @classmethod
-    def of(cls, seen: Sequence[tuple[float, float, float]], rounds: int, volume: float) -> "Rounds":
-        """Of all ``rounds`` those that were ``seen``.
+    def unknown(cls, rounds: int, volume: float) -> Self:
+        """Of ``rounds`` that are still to be marched; ``volume``, m3, worn before them."""
+        return cls(np.full((rounds, 2), nan), np.array([volume] + [nan] * rounds))
 
-        Least and largest u_r, m, in each, and the volume worn until its end, m3; ``volume``: that
-        before the first.
-        """
-        whole = np.full((rounds, 3), np.nan)
-        whole[: len(seen)] = np.reshape(seen, (-1, 3))
-        return cls(whole[:, :2], np.diff(whole[:, 2], prepend=volume))
+    def add(self, done: int, samples: NDArray[np.float64], volume: float) -> None:
+        """Add what the round after ``done`` shows: samples of u_r, m, and the volume after it."""
+        self.extremes[done] = samples.min(), samples.max()
+        self.volume[done + 1] = volume
+
+    def trend(self, first: int, tau: float) -> str:
+        """``trend`` of the rounds marched, the ``first`` not among them; ``tau`` in rounds."""
+        counted = slice(first, np.isfinite(self.worn).sum())
+        return trend(self.swing[counted], self.worn[counted], tau)
+
+    @property
+    def worn(self) -> NDArray[np.float64]:
+        """Volume worn in each round (rounds,), m3."""
+        return np.diff(self.volume)
 
     @property
     def swing(self) -> NDArray[np.float64]:
@@ -63,8 +76,24 @@ class Rounds:
         """Largest |u_r|, m, and the number of its round, from 1; nan without a whole round."""
         of_rounds = abs(self.extremes).max(axis=1)
         if np.isnan(of_rounds).all():
-            return np.nan, np.nan
+            return nan, nan
         return float(np.nanmax(of_rounds)), float(np.nanargmax(of_rounds) + 1)
+
+
+def looks(standing: int, least: int, most: int) -> set[int]:
+    """Rounds marched at which a run is judged that ends when it is steady at two of them in turn.
+
+    The first are ``FEWEST`` after those in which the casing changes, ``standing``, and ``least``;
+    each following has half as many again, the last is ``most``.
+
+    >>> sorted(looks(2, 5, 40))
+    [10, 14, 20, 29, 40]
+    """
+    counted, found = max(FEWEST, least - standing), {most}
+    while standing + counted < most:
+        found.add(standing + counted)
+        counted += ceil(counted / 2)
+    return found
 
 
 def time_constant(

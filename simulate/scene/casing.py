@@ -162,7 +162,11 @@ class Casing(Settings):
     @property
     def changes_until(self) -> int:
         """Round, from 0, at whose start the share of the distortion has taken its last value."""
-        return ceil(self.ramp.rounds[-1] if self.ramp else self.ramp_rounds)
+        if not self.ramp:
+            return ceil(self.ramp_rounds)
+        factors, at = self.ramp.factor, self.ramp.rounds
+        changes = (end for end, of in zip(at[1:], factors, strict=False) if of != factors[-1])
+        return ceil(max(changes, default=0.0))
 
     @property
     def travelling(self) -> list[Harmonic]:

@@ -238,10 +238,6 @@ class Scene(SettingsFile):
             if asked[key] and asked[other]:
                 raise SettingsError(f"does not go with {other}: take one of them out", key=key)
 
-    def stops_at(self, done: int) -> bool:
-        """Whether a steady run stops after so many rounds: asked for, and all that is recorded."""
-        return self.until is not None and done >= (self.record.spectrum_rounds or 0)
-
     @checked
     def _samples_are_steps(self) -> None:
         samples = self.record.samples_per_round

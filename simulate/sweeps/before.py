@@ -13,7 +13,7 @@ from simulate.sweeps.dataset import left_of, require_rom
 
 SAME_SPEED = 1e-9  # relative
 # Keys in which a run that goes on may differ from the one before
-MAY_DIFFER = {"speeds", "rounds", "record", "peaks", "twin", "start"}
+MAY_DIFFER = {"speeds", "rounds", "until", "record", "peaks", "twin", "start"}
 OF_LINER = ("strips", "rods_per_round", "thickness_m")  # keys that a worn liner must have alike
 
 type Before = Callable[[float], Left | Worn | None]  # what the run at a speed, rad/s, starts from

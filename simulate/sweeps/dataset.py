@@ -67,7 +67,11 @@ VARIABLES = {  # of each run: dimensions beside the speed, unit, meaning
     "steps_per_round": ("", "1", "steps per round"),
     "contact_share": ("", "1", "steps with contact over all steps"),
     "trend": ("", "1", "whether the motion is steady at the end of the run"),
-    "time_constant": ("", "1", "rounds in which the mode that responds dies out to 1/e"),
+    "time_constant": (
+        "",
+        "1",
+        "rounds in which the mode that responds dies out to 1/e, nan of a run that ended early",
+    ),
     "displacement": ("", *NUMBERS["displacement"]),
     "largest_round": ("", "1", "number of the round of the displacement"),
     "extremes": ("round bound", "m", "range of u_r at xi = 1/16 in a round"),
@@ -397,10 +401,11 @@ def left_of(run: xr.Dataset) -> Left:
 def course(run: xr.Dataset) -> dict[str, Any]:
     """How one run of a sweep went on to its end: as its variables, and `wears`, m3 in a round.
 
-    The latter is the mean of the last quarter. Empty for runs made by hand.
+    The latter is the mean of the last quarter. Of a run that ended early the trend alone; empty for
+    runs made by hand.
     """
-    if "trend" not in run:
-        return {}
+    if "trend" not in run or np.isnan(run["time_constant"]):
+        return {name: run[name].item() for name in ("trend",) if name in run}
     worn = run["worn"].values[: int(run["rounds"])]
     known = {name: run[name].item() for name in ("trend", "time_constant", "largest_round")}
     return known | {"wears": float(worn[-ceil(len(worn) / 4) :].mean())}

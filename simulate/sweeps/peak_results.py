@@ -33,7 +33,7 @@ from simulate.errors.model_errors import Doubt
 from simulate.errors.neighbour import CHAOTIC, ONE_MOTION, TWO_MOTIONS, Neighbour
 from simulate.errors.neighbours import ITSELF, TWIN, raised
 from simulate.errors.observables import Numbers, numbers
-from simulate.errors.run import Case
+from simulate.errors.run import Case, as_long
 from simulate.errors.signals import gaps_at_ends, leading_wear, lobe_count
 from simulate.marching import SENSITIVE_FROM, WITH_RESULT, prepare
 from simulate.scene import Scene
@@ -215,9 +215,10 @@ def _tried(peak: Peak, case: Case, doubt: Doubt) -> Peak:
 
 
 def case_of(runs: xr.Dataset, scene: Scene, rom: Rom, peak: Peak) -> Case:
-    """The sweep's run at a peak, from rest; ``scene``: as of ``to_march``."""
-    Omega, steps = (float(runs[of][peak.index]) for of in ("speed", "steps_per_round"))
-    return Case(scene, rom, prepare(scene, rom, Omega, int(steps)))
+    """The sweep's run at a peak, from rest, as long as there; ``scene``: as of ``to_march``."""
+    names = ("speed", "steps_per_round", "rounds")
+    Omega, steps, rounds = (float(runs[of][peak.index]) for of in names)
+    return Case(as_long(scene, rounds), rom, prepare(scene, rom, Omega, int(steps)))
 
 
 def at_peak(case: Case, k: int | None) -> Numbers:

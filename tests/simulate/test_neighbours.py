@@ -70,7 +70,7 @@ def outcome(scale=1.0, status="ok", **changes):
         force_tangential_mean=np.zeros((2, 8)),
         casing_work=np.zeros(2),
         contact_share=0.5,
-        each=Rounds(scale * np.array([[-3.0, 3.0]] * 2), scale * np.ones(2)),
+        each=Rounds(scale * np.array([[-3.0, 3.0]] * 2), scale * np.arange(3)),
     )
     return replace(run, **changes)
 

@@ -1,7 +1,10 @@
 """Whether a run is steady: closed forms, runs until they are, drawn scenes marched much longer."""
 
 from collections import Counter
-from math import ceil, inf
+from dataclasses import replace
+from functools import partial
+from itertools import pairwise
+from math import ceil, inf, nan
 
 import numpy as np
 import pytest
@@ -10,10 +13,16 @@ from scenes import EXACT, of_steps, scene
 from scipy.signal import lfilter
 
 from geometry.project import ROOT, SettingsError
+from simulate.errors.neighbour import Neighbour
+from simulate.errors.neighbours import ITSELF, TWIN, judged
+from simulate.errors.run import Case
 from simulate.marching import WITH_RESULT, march, prepare
-from simulate.marching.trend import FEWEST, Rounds, time_constant, trend
+from simulate.marching.trend import FEWEST, Rounds, looks, time_constant, trend
 from simulate.scene import DYING_OUT, GROWING, STEADY, TOO_SHORT, TRENDS, Scene
-from simulate.sweeps.peak import crossing
+from simulate.sweeps.closing_in import sweep
+from simulate.sweeps.dataset import course, of_run
+from simulate.sweeps.peak import Peak, crossing
+from simulate.sweeps.peak_results import case_of, to_march
 
 J = np.arange(400.0)
 NO_WEAR = np.zeros(400)
@@ -79,9 +88,11 @@ def test_the_time_constant_is_of_the_mode_that_responds():
 
 
 def test_the_largest_displacement_has_its_round():
-    assert np.isnan(Rounds.of([], 4, 2.0).largest).all()
-    seen = [(-3.0, 1.0, 2.0), (-5.0, 1.0, 2.5), (2.0, 4.0, 4.0)]
-    rounds = Rounds.of(seen, 4, 2.0)
+    rounds = Rounds.unknown(4, 2.0)
+    assert np.isnan(rounds.largest).all()
+    seen = [([-3.0, 0.0, 1.0], 2.0), ([1.0, -5.0], 2.5), ([4.0, 2.0], 4.0)]
+    for done, (samples, volume) in enumerate(seen):
+        rounds.add(done, np.array(samples), volume)
     assert rounds.largest == (5.0, 2.0)
     np.testing.assert_array_equal(rounds.worn, [0.0, 0.5, 1.5, np.nan])
     np.testing.assert_array_equal(rounds.swing, [2.0, 3.0, 1.0, np.nan])
@@ -94,22 +105,90 @@ RUB = {
 }
 
 
+def marched_case(case, rom, over_f1=0.3):
+    return Case(case, rom, prepare(case, rom, over_f1 * rom.omega1)).march()
+
+
 def marched(case, rom, over_f1=0.3):
-    return march(case, prepare(case, rom, over_f1 * rom.omega1))
+    return marched_case(case, rom, over_f1).outcome
 
 
 def test_a_run_until_it_is_steady_is_that_of_as_many_rounds(coarse_rom):
     """To the last bit, its last rounds in order; the rounds asked for are the most."""
     until = marched(scene(**RUB, rounds=200, until="steady"), coarse_rom)
-    assert (until.status, until.trend) == ("ok", STEADY) and 15 < until.rounds < 100
+    ends = sorted(looks(1, 5, 200))
+    assert (until.status, until.trend) == ("ok", STEADY) and until.rounds in ends[1:-1]
     same = marched(scene(**RUB, rounds=int(until.rounds)), coarse_rom)
     assert same.trend == STEADY
     for name in ("u_r", "wear", "casing_work"):
         np.testing.assert_array_equal(getattr(until, name), getattr(same, name))
-    one_less = marched(scene(**RUB, rounds=int(until.rounds) - 1), coarse_rom)
-    assert one_less.trend != STEADY
+    *_, earlier, before = ends[: ends.index(until.rounds)]
+    assert marched(scene(**RUB, rounds=before), coarse_rom).trend == STEADY
+    assert marched(scene(**RUB, rounds=earlier), coarse_rom).trend != STEADY
     shorter = marched(scene(**RUB, rounds=12, until="steady"), coarse_rom)
     assert shorter.rounds == 12 and shorter.trend != STEADY
+
+
+def test_it_is_marched_as_far_as_its_spectrum_needs(coarse_rom):
+    record = RUB["record"] | {"spectrum_rounds": 50}
+    case = scene(**RUB | {"record": record}, rounds=200, until="steady")
+    assert marched(case, coarse_rom).rounds >= 50
+
+
+@pytest.mark.parametrize("bound", [0.05, 0.99])  # in the first round; in a later one
+def test_a_run_that_breaks_off_says_what_its_whole_rounds_tell(coarse_rom, bound):
+    """Of a time constant and of what is worn at the end nothing is known; twins go as far."""
+    case = scene(**RUB, rounds=30, until="steady", twin=True)
+    setup = prepare(case, coarse_rom, 0.3 * coarse_rom.omega1)
+    largest = march(case, setup).each.largest[0]
+    run = judged(Case(case, coarse_rom, replace(setup, bound=bound * largest)).march())
+    assert run.outcome.status == "diverged" and run.outcome.trend == TOO_SHORT
+    assert np.isnan(run.outcome.time_constant)
+    assert course(of_run(run).isel(speed_over_f1=0)) == {"trend": TOO_SHORT}
+
+
+def test_a_run_that_grows_until_it_breaks_off_grows():
+    rounds = Rounds.unknown(40, 0.0)
+    for done in range(30):
+        rounds.add(done, np.array([0.0, 1.1**done]), 0.0)
+    assert rounds.trend(0, nan) == GROWING
+    assert rounds.trend(24, nan) == TOO_SHORT
+
+
+@pytest.mark.parametrize("beside", ["twin", "halving"])
+def test_second_runs_take_as_many_rounds(coarse_rom, beside):
+    """So that the differences are those of the runs, not of their lengths."""
+    case = scene(**RUB, rounds=80, until="steady", **{beside: True})
+    run = judged(marched_case(case, coarse_rom))
+    assert run.outcome.rounds < 80
+    found = run.departures or run.errors
+    assert {*found} == {"spectrum", "wear", "force_peak"}
+    assert max(found.values()) < (1e-6 if beside == "twin" else 1.0)
+
+
+def test_at_peaks_second_runs_take_as_many_rounds_as_the_sweep(coarse_rom):
+    speeds = {"over_f1": [0.28, 0.3, 0.32]}
+    runs = sweep(scene(**RUB, rounds=80, until="steady", speeds=speeds), coarse_rom)
+    peak = Peak(4, 1, 0.3)
+    case = case_of(runs, to_march(runs), coarse_rom, peak)
+    longer = Neighbour("less damped", scene=lambda of: of.but(damping_ratio=1e-4))
+    for other in (ITSELF, TWIN, longer):
+        assert case.beside(other).march().outcome.rounds == runs["rounds"][1] < 80
+
+
+def test_a_scene_may_start_from_one_that_does_not_stop(coarse_rom):
+    first = RUB | {"record": RUB["record"] | {"end": True}}
+    runs = sweep(scene(**first, rounds=20), coarse_rom)
+    case = scene(**RUB, rounds=60, until="steady", start={"scene": "first"})
+    assert sweep(case, coarse_rom, start=runs)["trend"].item() == STEADY
+
+
+def test_a_ramp_ends_where_it_takes_its_last_value():
+    """Tables go on to the end of a run, with the same factor."""
+    ramp = {"rounds": [0, 5.5, 9, 80], "factor": [0, 0.5, 1, 1]}
+    assert scene(casing__ramp_rounds=None, casing__ramp=ramp).casing.changes_until == 9
+    still = {"rounds": [0, 80], "factor": [1, 1]}
+    assert scene(casing__ramp_rounds=None, casing__ramp=still).casing.changes_until == 0
 
 
 def test_what_is_recorded_of_the_last_rounds_does_not_go_with_it():
@@ -169,12 +248,17 @@ def refuted(word, swing, end):
     return means.max() <= 1 + PASSED if word == GROWING else means.min() >= 1 - PASSED
 
 
+def said(each, standing, tau, end):
+    """The word after ``end`` rounds."""
+    return trend(each.swing[standing:end], each.worn[standing:end], tau)
+
+
 @pytest.mark.slow
 def test_few_words_of_drawn_scenes_are_refuted(coarse_rom):
     """Of steady ones 2 % at most, of growing and dying ones 10 %; most long runs get a word.
 
-    Long: two time constants, while the casing stands. The limits of ``trend`` were set on other
-    scenes, 300 of both blades and 1200 of this one.
+    Also of runs that end where they are steady. Long: two time constants, while the casing stands.
+    The limits of ``trend`` were set on other scenes, 300 of both blades and 1200 of this one.
     """
     dice, words, wrong, long = np.random.default_rng(20261126), Counter(), Counter(), []
     for _ in range(SCENES):
@@ -182,15 +266,22 @@ def test_few_words_of_drawn_scenes_are_refuted(coarse_rom):
         run = marched(case, coarse_rom, over_f1)
         if run.status not in WITH_RESULT:
             continue
-        judged = slice(case.casing.changes_until, rounds)
-        word = trend(run.each.swing[judged], run.each.worn[judged], run.time_constant)
+        standing, tau = case.casing.changes_until, run.time_constant
+        says = partial(said, run.each, standing, tau)
+        ends = sorted(looks(standing, 1, len(run.each.worn)))
+        stops = (end for of, end in pairwise(ends) if says(of) == says(end) == STEADY)
+        if (end := next(stops, inf)) < 0.75 * len(run.each.worn):
+            words["until"] += 1
+            wrong["until"] += refuted(STEADY, run.each.swing, end)
+        word = says(rounds)
         words[word] += 1
         wrong[word] += word != TOO_SHORT and refuted(word, run.each.swing, rounds)
-        if rounds - case.casing.changes_until > 2 * run.time_constant:
+        if rounds - standing > 2 * tau:
             long.append(word != TOO_SHORT)
     print(words, wrong, len(long), np.mean(long))
-    assert sum(words.values()) > 0.9 * SCENES and set(words) <= {*TRENDS}
+    assert sum(words[word] for word in TRENDS) > 0.9 * SCENES and set(words) <= {*TRENDS, "until"}
     assert wrong[STEADY] <= 0.02 * words[STEADY]
+    assert wrong["until"] <= 0.02 * words["until"] and words["until"] > 0.5 * SCENES
     moving = words[GROWING] + words[DYING_OUT]
     assert wrong[GROWING] + wrong[DYING_OUT] <= 0.1 * moving
     assert np.mean(long) >= 0.7

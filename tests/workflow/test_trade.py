@@ -39,8 +39,14 @@ def single(u, wear, forces=1.0, status="ok", **places):
     on_shares = force_weights(ends) @ np.broadcast_to(forces, len(wear))
     force = np.tile(on_shares, (ROUNDS, 1))
     of = dict.fromkeys(field.name for field in fields(Outcome))
-    of |= {"status": status, "u_r": np.column_stack([u, u]), "wear": wear, "ends": ends}
-    of["each"] = Rounds.of([], ROUNDS, 0.0)
+    of |= {
+        "status": status,
+        "rounds": ROUNDS,
+        "u_r": np.column_stack([u, u]),
+        "wear": wear,
+        "ends": ends,
+    }
+    of["each"] = Rounds.unknown(ROUNDS, 0.0)
     of |= dict.fromkeys(("force_peak", "force_mean", "force_tangential_mean"), force)
     one = dict.fromkeys(("width", "radius"), np.full(len(wear), len(wear) ** -0.5)) | places
     setup = SimpleNamespace(places=SimpleNamespace(**one), steps=4096)
