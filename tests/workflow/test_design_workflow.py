@@ -54,7 +54,12 @@ def rows_marched(project) -> list[str]:
 @pytest.mark.slow
 def test_blocks_rows_and_full_records(tmp_path):
     project = with_design(tmp_path)
-    project.run()
+    said = project.run()
+    last = f"Design of scene mine: {FOLDER}/design.csv, results/figures/design-mine.png."
+    assert last in said
+    table = (project.folder / FOLDER / "design.csv").read_text().splitlines()
+    assert len(table) == 1 + 3 and table[0].startswith("row,liner.law.K,largest amplitude (µm)")
+    assert (project.folder / "results/figures/design-mine.png").is_file()
     runs = load(project.folder / FOLDER / "design-runs.nc")
     assert runs["row"].values.tolist() == [1, 1, 2, 2, 3, 3]
     assert rows_marched(project) == ["1", "2", "3"]

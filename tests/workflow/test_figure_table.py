@@ -31,6 +31,7 @@ SCENES = {
     "hard": scene(wear=True, gaps="rest"),
     "free": scene("given", touches=False),
     "drawn": scene(design="five.yaml"),
+    "listed": scene(design="rows.csv"),
     "paper-e1": scene("reference", wear=True),
     "paper-e10": scene("reference", wear=True),
 }
@@ -87,7 +88,8 @@ def test_a_figure_marks_the_operating_speeds_of_its_blade():
     [
         (["soft"], ["campbell-thin", "modes-thin", "spectra-soft", "loads-thin"]),
         (["free"], ["spectra-free"]),
-        (["drawn"], ["campbell-thin", "modes-thin", "sensitivity-drawn"]),
+        (["drawn"], ["campbell-thin", "modes-thin", "design-drawn", "sensitivity-drawn"]),
+        (["listed"], ["campbell-thin", "modes-thin", "design-listed"]),
         (["paper-e1"], ["fig03", "fig09", "fig10a", "loads-reference", "fig11a"]),
         (
             ["paper-e1", "paper-e10"],

@@ -1,5 +1,6 @@
 """Every figure, drawn from made data: its numbers, labels and units, nothing cut off or hidden."""
 
+import csv
 import dataclasses
 import re
 from types import SimpleNamespace
@@ -53,6 +54,7 @@ from simulate.sweeps.peak_results import asked, ends
 from workflow.figures import (
     clearance,
     coatings,
+    designs,
     fig02_blade,
     fig03_campbell,
     fig04_footprint,
@@ -62,7 +64,6 @@ from workflow.figures import (
     loads,
     long_times,
     resolution,
-    sensitivity,
     spectra,
     stress,
     style,
@@ -299,6 +300,20 @@ def sobol_rows(tmp_path):
 
 
 @pytest.fixture
+def design_rows():
+    """Three rows of a design: in two the peak of k = 4 is reported, in one it is not."""
+    of_peak = {"critical_speed": 0.34, "peak": 2.0, "wear": 3e-6, "force_peak": 50.0, "trend": 1}
+    at_peak = {name: (("row", "order"), [[of, of]] * 3) for name, of in of_peak.items()}
+    at_peak["reported"] = ("row", "order"), [[1, 0], [1, 0], [0, 0]]
+    of_row = {"gap": [GAP] * 3, "largest_amplitude": [4e-5, 2e-5, 1e-6], "runs": [9] * 3}
+    of_row |= {"largest_wear": [5e-6, 4e-6, 0.0], "not_ok": [0, 1, 0]}
+    given = {"liner.law.K": [0.3, 0.6, 1.2], "liner.law.kind": ["plastic"] * 3}
+    variables = {name: ("row", of, {"long_name": "given"}) for name, of in given.items()}
+    variables |= {name: ("row", of) for name, of in of_row.items()} | at_peak
+    return xr.Dataset(variables, {"row": [1, 2, 3], "order": [4, 6]}, {"f1_Hz": F1})
+
+
+@pytest.fixture
 def fits():
     """Weights of the upper half of the first parameter: density 2 there, 0 below; others 1."""
     points = sobol(512, 1)
@@ -389,7 +404,8 @@ FIGURES = {
     "long times": lambda get: long_times.through_peak(
         *read(long_times, get("long_files"), "through_peak")
     ),
-    "sensitivity": lambda get: sensitivity.draw(*read(sensitivity, get("sobol_rows"))),
+    "design": lambda get: designs.draw(get("design_rows")),
+    "sensitivity": lambda get: designs.sensitivity(*read(designs, get("sobol_rows"))),
     "states of the grid": lambda get: coatings.predictability(get("grid")),
     "stress": lambda get: stress.draw(*stressed(bent, at_one_side)),
     "trade": lambda get: trade.settings(get("study")),
@@ -738,6 +754,10 @@ NUMBERS = {  # by figure and what is shown: the numbers that are drawn, and what
     ("loads", "worn volume in mm3"): (lambda drawn: heights(drawn.axes[2], 1), [[10, 30]]),
     # 1 mm3 is 1e-9 m3, over 0.1 m2
     ("loads", "opening of the gap"): (lambda drawn: scale_beside(drawn.axes[2], "opening"), 0.01),
+    ("design", "amplitude and wear of the rows in µm, over what they change"): (
+        lambda drawn: [axes.lines[0].get_xydata().T for axes in drawn.axes],
+        [[[0.3, 0.6, 1.2], [40, 20, 1]], [[0.3, 0.6, 1.2], [5, 4, 0]]],
+    ),
     ("long times", "amplitude after so many rounds"): (
         lambda drawn: drawn.axes[0].lines[1].get_xydata(),
         [[20, 2.0], [200, 2.2], [2000, 2.3]],
@@ -769,13 +789,29 @@ def test_a_figure_shows_its_numbers(figure, shown, request):
 
 
 def test_bars_are_the_indices(sobol_rows):
-    (rows,) = read(sensitivity, sobol_rows)
+    (rows,) = read(designs, sobol_rows)
     found = indices(rows, ["largest_amplitude", "largest_wear"])
-    drawn = sensitivity.draw(rows)
+    drawn = designs.sensitivity(rows)
     for i, axes in enumerate(drawn.axes):
         bars = [[bar.get_height() for bar in of] for of in axes.containers]
         np.testing.assert_allclose(bars, [found.first[i], found.total[i]])
     assert drawn.legends[0].get_title().get_text() == "128 rows, 1 with runs not ok"
+
+
+def test_the_table_of_a_design_has_its_reported_peaks_in_rpm_and_micrometres(design_rows):
+    heads, first, _, third = list(csv.reader(designs.csv(design_rows).splitlines()))
+    one, without = (dict(zip(heads, line, strict=True)) for line in (first, third))
+    assert (one["row"], one["liner.law.K"], one["liner.law.kind"]) == ("1", "0.3", "plastic")
+    assert (one["largest amplitude (µm)"], one["deepest wear (µm)"]) == ("40", "5")
+    assert (one["EO 4 critical speed (rpm)"], one["EO 4 motion"]) == ("2040", "growing")
+    assert (one["EO 4 amplitude (µm)"], one["EO 4 peak force (N)"]) == ("40", "50")
+    assert without["EO 4 critical speed (rpm)"] == without["EO 4 motion"] == ""
+    assert not any(head.startswith("EO 6") for head in heads)
+
+
+def test_a_design_that_changes_words_alone_is_drawn_over_its_rows(design_rows):
+    drawn = designs.draw(design_rows.drop_vars("liner.law.K"))
+    assert drawn.axes[0].lines[0].get_xdata().tolist() == [1, 2, 3] and faults(drawn) == []
 
 
 def words(axes):

@@ -56,7 +56,7 @@ def test_without_a_torque_there_is_no_line_and_the_figure_says_why(loads_of, why
     assert (of.no_torque, "torque" in of.lines) == (why, False)
     known = of._replace(name="other", no_torque=None, lines={"torque": np.array([0.3, 0.4])})
     drawn = loads.panels([of, known], 100.0, "mine")
-    assert any(why in text.get_text() for axes in drawn.axes for text in axes.texts)
+    assert any(why in axes.get_title(loc="right") for axes in drawn.axes)
 
 
 def test_a_number_that_is_not_recorded_is_known_at_peaks_and_the_caption_names_its_key(loads_of):

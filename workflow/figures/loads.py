@@ -106,8 +106,7 @@ def panels(
             per_mm3 = MICRO / CUBIC_MM * loads[0].opening_per_volume
             style.beside(axes, per_mm3, "mean opening (µm)")
         if name == "torque":
-            at = {"ha": "right", "va": "bottom", "transform": axes.transAxes}
-            axes.text(1, 1.03, _unknown(loads), fontsize=7, **at)
+            axes.set_title(_unknown(loads), loc="right", fontsize=7)
     for axes in used:
         operating_lines(drawn if axes is used[0] else None, axes, f1, operating["lines"])
     units.show(used[-1].xaxis, style.below, *units.both(False, f1)["speed"])

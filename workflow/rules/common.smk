@@ -309,10 +309,10 @@ def of_scenes(pattern):
 def of_designs():
     """The tables of every design to deliver."""
     return [
-        f"results/{scene.blade}/{name}/design-{table}.nc"
+        f"results/{scene.blade}/{name}/{table}"
         for name, scene in DELIVERED.items()
         if scene.design
-        for table in ("runs", "rows")
+        for table in ("design-runs.nc", "design-rows.nc", "design.csv")
     ]
 
 

@@ -54,7 +54,13 @@ rule summary:
         "../scripts/job.py"
 
 
-# Where the summary was among what was asked for, it is the last that the terminal shows.
+# Where tables of designs and the summary were among what was asked for, they are the last that the terminal shows.
 onsuccess:
-    if SUMMARY in {str(file) for job in workflow.dag.jobs for file in job.output}:
+    made = {str(file) for job in workflow.dag.jobs for file in job.output}
+    for name in [name for name, scene in DELIVERED.items() if scene.design]:
+        pictures = [f"results/figures/{kind}-{name}.png" for kind in ("design", "sensitivity")]
+        files = [f"results/{DELIVERED[name].blade}/{name}/design.csv", *pictures]
+        if found := [file for file in files if file in made]:
+            print(f"Design of scene {name}: {', '.join(found)}.", flush=True)
+    if SUMMARY in made:
         print(last_words("results"), flush=True)

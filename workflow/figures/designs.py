@@ -1,0 +1,106 @@
+"""Designs: what stands in their rows, as a table and a picture, and which factors matter."""
+
+from typing import Annotated
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from simulate.scene import TRENDS
+from simulate.scene.sobol import indices
+from simulate.sweeps.design_runs import load as load_table
+from workflow.figures import lines, style
+from workflow.figures.units import MICRO, RPM_PER_HZ
+
+LARGEST, DEEPEST = "largest amplitude (µm)", "deepest wear (µm)"  # of all runs of a row
+VALUE = "value (in the unit of its key)"
+QUANTITIES = {"largest_amplitude": "largest amplitude", "largest_wear": "deepest wear"}
+WIDTH = 0.36  # of a bar
+
+
+type Rows = Annotated[xr.Dataset, load_table]
+
+
+def table(rows: xr.Dataset) -> pd.DataFrame:
+    """A line for each row of a design: what it changes, its extremes, its reported peaks.
+
+    In rpm, micrometres and newtons; a peak that is not reported has no numbers.
+    """
+    reported = rows["reported"] > 0
+    at_peaks = {
+        "critical speed (rpm)": RPM_PER_HZ * rows.attrs["f1_Hz"] * rows["critical_speed"],
+        "amplitude (µm)": MICRO * rows["gap"] * rows["peak"],
+        "motion": reported.copy(data=np.array([*TRENDS, ""])[rows["trend"]]),
+        "wear (µm)": MICRO * rows["wear"],
+        "peak force (N)": rows["force_peak"],
+    }
+    by_order = {
+        f"EO {k} {name}": of.where(reported).sel(order=k, drop=True)
+        for k in rows["order"].values[reported.any("row")]
+        for name, of in at_peaks.items()
+    }
+    of_row = {name: of for name, of in rows.items() if of.attrs.get("long_name") == "given"} | {
+        LARGEST: MICRO * rows["largest_amplitude"],
+        DEEPEST: MICRO * rows["largest_wear"],
+        "runs": rows["runs"],
+        "runs not ok": rows["not_ok"],
+    }
+    return xr.Dataset(of_row | by_order).to_dataframe()
+
+
+def csv(rows: Rows) -> str:
+    """The same as CSV."""
+    return table(rows).to_csv(float_format="%.6g")
+
+
+def draw(rows: Rows) -> Figure:
+    """Largest amplitude and deepest wear of each row over each number that the design changes.
+
+    Over the number of the row where it changes words alone.
+    """
+    found = table(rows).reset_index()
+    keys = [name for name in found if name in rows and found[name].dtype.kind == "f"]
+    records = found.melt([LARGEST, DEEPEST], keys or ["row"], value_name=VALUE)
+    return lines.draw(
+        records, VALUE, [LARGEST, DEEPEST], panel="variable", looks=[("o", style.BLACK)]
+    )
+
+
+@style.styled
+def sensitivity(rows: Rows) -> Figure:
+    """One panel for each quantity: first-order and total indices with their intervals.
+
+    ``rows``: the table of a design, by row.
+    """
+    found = indices(rows, [*QUANTITIES])
+    drawn, panels = style.subplots(
+        style.DOUBLE, 2.6, columns=len(QUANTITIES), letters=True, sharey=True
+    )
+    for i, (axes, title) in enumerate(zip(panels, QUANTITIES.values(), strict=True)):
+        first, total = found.first_interval[:, i], found.total_interval[:, i]
+        _bars(axes, -WIDTH / 2, found.first[i], first, color=style.BLUE, label="first order")
+        _bars(axes, WIDTH / 2, found.total[i], total, color=style.VERMILLION, label="total")
+        axes.set_xticks(range(len(found.factors)), found.factors)
+        axes.set_title(title, loc="right")
+        axes.axhline(0, color=style.BLACK, linewidth=0.6)
+    panels[0].set_ylabel("share of the variance")
+    not_ok = int((rows["not_ok"] > 0).sum())
+    counted = f"{rows.sizes['row']} rows, {not_ok} with runs not ok"
+    style.legend(drawn, "lower center", ncols=2, title=counted)
+    return drawn
+
+
+def _bars(
+    axes: Axes,
+    offset: float,
+    values: NDArray[np.float64],
+    interval: NDArray[np.float64],
+    **look: str,
+) -> None:
+    """Bars of the indices (factors,), with their ``interval`` (2, factors)."""
+    places = np.arange(len(values)) + offset
+    axes.bar(places, values, WIDTH, **look)
+    axes.vlines(places, *interval, color=style.BLACK, linewidth=0.8)
