@@ -6,6 +6,7 @@ Figures hold speeds and frequencies over f1(0) and lengths over the gap; a unit 
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
+import numpy as np
 from matplotlib.axis import Axis
 from matplotlib.ticker import AutoLocator
 
@@ -45,8 +46,7 @@ def show(
     """
     axis.set_label_text(first.label)
     if first.scale != 1.0:
-        low, high = axis.get_view_interval()
-        ticks = AutoLocator().tick_values(first.scale * low, first.scale * high)
-        axis.set_ticks(ticks / first.scale, [f"{tick:.6g}" for tick in ticks])
-        axis.set_view_interval(low, high, ignore=True)  # to which ticks beyond it were added
+        low, high = first.scale * axis.get_view_interval()
+        within = [at for at in AutoLocator().tick_values(low, high) if low <= at <= high]
+        axis.set_ticks(np.divide(within, first.scale), [f"{at:.6g}" for at in within])
     second_axis(axis.axes, second.scale, second.label, **place)
