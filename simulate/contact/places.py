@@ -26,10 +26,6 @@ class Places:
     theta: NDArray[np.float64]  # (m,), rad
     width: NDArray[np.float64]  # (m,), m, axial; their sum is the axial length of the tip
 
-    def volume(self, depth: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Volume (...,), m3, of depths (..., m), m, that are the same all around the casing."""
-        return volume_of(depth, self.width, self.radius)
-
 
 def volume_of(
     depth: NDArray[np.float64], width: NDArray[np.float64], radius: NDArray[np.float64]

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from simulate.contact.compiled import for_types_of
 from simulate.contact.ledger import CASING, DAMPING, FRICTION, HEAT, PLASTIC, RELEASED, WORK, Ledger
-from simulate.contact.places import SHARES, force_weights
+from simulate.contact.places import SHARES, force_weights, volume_of
 from simulate.contact.ramp import ramp_of
 from simulate.contact.strips import offset
 from simulate.marching import central_difference, piecewise_exact
@@ -199,8 +199,8 @@ def _in_order(kept: NDArray[np.float64], done: int, until: str | None) -> NDArra
 
 def _worn(setup: Setup, state: State) -> float:
     """Volume worn off the liner, m3."""
-    depth = setup.strips.thickness * state.eps_p.mean(axis=1)
-    return float(setup.places.volume(depth))
+    depth, places = setup.strips.thickness * state.eps_p.mean(axis=1), setup.places
+    return float(volume_of(depth, places.width, places.radius))
 
 
 def _stored(scene: Scene, setup: Setup, state: State, steps: int) -> tuple[float, float]:

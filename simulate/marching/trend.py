@@ -9,7 +9,7 @@ mode and the engine orders rise and fall within tau; wear may change the motion 
     dying out   before by ``MOVES`` of the last, and the last change is no small one beside that
                 before: no beat does so four times in turn
     steady      the swing of the last half, less what dies out as exp(-j/tau), is within ``STILL``
-                of the swing at the end, and the last quarter wore ``WEARS`` of the volume at most
+                of the swing at the end, and the last quarter wore at most ``WEARS`` of what all did
     too short   neither can be said
     to say
 
@@ -35,7 +35,7 @@ MOVES = 0.1  # of the swing at the end, from quarter to quarter
 SLOWS = 0.3  # the last change over the one before, at least: else it comes to an end
 STILL = 0.05  # of the swing at the end
 SURE = 2.0  # standard errors of what still dies out, beside it
-WEARS = 0.03  # of the worn volume, in the last quarter
+WEARS = 0.03  # of the volume worn in the rounds that count, in the last quarter
 LONGEST = 1e3  # time constants beyond so many times the rounds are as this one: without damping
 
 

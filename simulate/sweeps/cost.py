@@ -37,6 +37,7 @@ class Cost:
 
     speeds: int
     rounds: int
+    until: bool  # at most so many
     steps: float  # per round, mean over the speeds
     beside: list[Neighbour]  # each run
     all_steps: float  # of all runs
@@ -50,8 +51,9 @@ class Cost:
         """
         names = " and ".join(run.name for run in self.beside)
         beside = f", each with {names}" if names else ""
+        rounds = f"{'at most ' * self.until}{self.rounds} rounds"
         said = [
-            f"{self.speeds} speeds of {self.rounds} rounds of {self.steps:.6g} steps{beside}: "
+            f"{self.speeds} speeds of {rounds} of {self.steps:.6g} steps{beside}: "
             f"{self.all_steps:.2g} steps, some {duration(self.seconds)} on one core, "
             f"{self.memory / 1e9:.2g} GB of memory"
         ]
@@ -89,6 +91,7 @@ def cost(scene: Scene, rom: Rom, speeds: int | None = None) -> Cost:
     return Cost(
         speeds=speeds,
         rounds=scene.rounds,
+        until=scene.until is not None,
         steps=steps,
         beside=beside,
         all_steps=all_steps,

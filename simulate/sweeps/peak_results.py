@@ -227,9 +227,7 @@ def at_peak(case: Case, k: int | None) -> Numbers:
     if run.outcome.status not in WITH_RESULT:
         return {}
     found = numbers(run, k)
-    names = {name: name for name in ("amplitude", "displacement")} | (
-        OF_CONTACT if case.scene.liner.law.touches else {}
-    )
+    names = OF_MOTION | (OF_CONTACT if case.scene.liner.law.touches else {})
     return {name: found[of] for name, of in names.items() if of in found}
 
 

@@ -29,6 +29,11 @@ def test_steps_twins_and_half_steps_are_counted(coarse_rom, twin, halving, times
     assert with_others.seconds == pytest.approx(times * found.seconds)
 
 
+def test_rounds_of_runs_that_may_end_before_are_the_most(coarse_rom):
+    (line,) = cost(scene(rounds=20, until="steady", record__history=None), coarse_rom).lines(16e9)
+    assert line.startswith("1 speeds of at most 20 rounds")
+
+
 def test_steps_of_central_differences_are_those_of_the_limit(coarse_rom):
     steps = swept(scene(), coarse_rom)["steps_per_round"].item()
     assert cost(scene(), coarse_rom).steps == steps
