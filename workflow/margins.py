@@ -17,7 +17,10 @@ HEADS = [
 
 
 def rows(
-    found: Mapping[str, Any], peaks: Iterable[Mapping[str, Any]] = (), relative: float = 0.0
+    found: Mapping[str, Any],
+    peaks: Iterable[Mapping[str, Any]] = (),
+    relative: float = 0.0,
+    least: bool = False,
 ) -> list[dict[str, Any]]:
     """Each critical speed with its margins from each operating speed, nearest first.
 
@@ -26,7 +29,7 @@ def rows(
     found : as of ``simulate.sweeps.peak.critical``; empty without operating speeds
     peaks : of a sweep, each with ``what`` it is, k, rpm, rpm_error, and whether it is at an end of
         the sweep (``bound``)
-    relative : error of the frequencies
+    relative : error of the frequencies; with ``least`` a part of it is not known
 
     Returns
     -------
@@ -36,7 +39,11 @@ def rows(
     operating speed (None of a rub peak).
     """
     critical = [
-        of | {"rpm_error": relative * of["rpm"] + abs(of["quadratic_rpm"] - of["rpm"])}
+        of
+        | {
+            "rpm_error": relative * of["rpm"] + abs(of["quadratic_rpm"] - of["rpm"]),
+            "least": least,
+        }
         for of in found.get("crossings", ())
     ]
     critical += [
@@ -48,6 +55,7 @@ def rows(
             "quadratic_rpm": None,
             "bound": of["bound"],
             "rpm_error": of["rpm_error"],
+            "least": of["least"],
         }
         for of in peaks
     ]
@@ -90,8 +98,8 @@ def speed(row: Mapping[str, Any]) -> str:
     error = row["rpm_error"]
     if row["bound"] or not error:
         return f"{row['rpm']:.0f}{' (end)' * row['bound']}"
-    known = f"±{markdown.two_digits(error)}" if isfinite(error) else markdown.NOT_KNOWN
-    return f"{row['rpm']:.0f} {known}"
+    known = ("≥" if row["least"] else "±") + markdown.two_digits(error)
+    return f"{row['rpm']:.0f} {known if isfinite(error) else markdown.NOT_KNOWN}"
 
 
 def share(margin: float | None) -> str:

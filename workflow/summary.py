@@ -47,6 +47,7 @@ COLUMNS = (  # of the numbers of ``sweeps.peak_results``
     Column("torque", "N m", 1.0, "torque N m"),
     Column("stress", "MPa", 1e-6, "stress MPa"),
 )
+AT_END = ("at the end", "τ rev.", "mm³/rev.")  # heads
 MEANING = {  # of the columns
     "amplitude": "of the tip's radial displacement at ξ = 1/16, along the engine order k, over the "
     "last revolutions of the run",
@@ -66,9 +67,9 @@ MEANING = {  # of the columns
     "sweep may be higher by; for the speed the spacing of the sweep and the errors of the "
     "frequencies, not what step, strips and patches shift",
     "≥": "as ±, but some of these are not known",
-    "at the end": f"whether the motion is {', '.join(TRENDS)}, by the range of u_r of each "
-    "revolution; τ, the time constant of the mode that responds; the volume worn in a revolution "
-    "of the last quarter of the run",
+    AT_END[0]: f"whether the motion is {', '.join(TRENDS)}, by the range of u_r of each revolution",
+    AT_END[1]: "time constant of the mode that responds, in which it dies out to 1/e",
+    AT_END[2]: "volume worn in a revolution of the last quarter of the run",
     ONE_MOTION: "none of the second runs leads to another motion",
     TWO_MOTIONS: "the last digits of the model choose between two motions, the second number is "
     "that of the other",
@@ -137,7 +138,7 @@ def _scene(of: Mapping[str, Any], stress: Stress, found: Mapping[str, Any]) -> d
         "runs": sum(answer["runs"] for answer in of["peaks"]),
         "rows": rows,
         "operating": found,
-        "margins": margins.rows(found, peaks, _of_model(of)),
+        "margins": margins.rows(found, peaks, _of_model(of), None in of["doubt"].values()),
     }
 
 
@@ -154,6 +155,7 @@ def _row(of: Mapping[str, Any], answer: Mapping[str, Any], stress: Stress) -> Ro
         "k": k,
         "rpm": RPM_PER_HZ * f1 * over_f1,
         "rpm_error": _speed_error(of, answer),
+        "least": None in of["doubt"].values(),
         "over_f1": over_f1,
         "hz": k and k * f1 * over_f1,
         "over_crossing": answer["crossing"] and over_f1 / answer["crossing"],
@@ -293,7 +295,7 @@ def columns(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
 def shown(scene: Mapping[str, Any]) -> tuple[list[str], list[list[str]]]:
     """Heads and cells of a scene's table; columns without any number are left out."""
     kept = known(row["values"] for row in scene["rows"])
-    heads = ["k", "rpm", "Ω / f₁(0)", "Hz", *(column.head for column in kept), "at the end", ""]
+    heads = ["EO", "rpm", "Ω / f₁(0)", "Hz", *(column.head for column in kept), *AT_END, ""]
     return heads, [
         [
             str(row["k"] or "-"),
@@ -301,7 +303,7 @@ def shown(scene: Mapping[str, Any]) -> tuple[list[str], list[list[str]]]:
             f"{row['over_f1']:.3f}",
             f"{row['hz']:.1f}" if row["hz"] else "-",
             *(_cell(row, column) for column in kept),
-            _at_end(row),
+            *_at_end(row),
             row["word"],
         ]
         for row in scene["rows"]
@@ -333,15 +335,12 @@ def moves(row: Row) -> bool:
     return row["course"].get("trend") in (GROWING, DYING_OUT)
 
 
-def _at_end(row: Row) -> str:
+def _at_end(row: Row) -> list[str]:
     """Whether the motion is steady, the time constant by which, and what is still worn."""
     course = row["course"]
-    if "wears" not in course:
-        return course.get("trend", "-")
-    wears = Number(1e9 * course["wears"]).shown
-    tau = course["time_constant"]
-    known = f"τ {Number(tau).shown} rev." if tau and isfinite(tau) else "no damping"
-    return f"{course['trend']}; {known}; {wears} mm³/rev."
+    numbers = course.get("time_constant"), course.get("wears") and 1e9 * course["wears"]
+    known = [markdown.cell(of) if of is None or isfinite(of) else "-" for of in numbers]
+    return [course.get("trend", "-"), *known]
 
 
 def about(scene: Mapping[str, Any]) -> str:

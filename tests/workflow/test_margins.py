@@ -178,6 +178,7 @@ def test_a_blade_without_operating_speeds_has_no_margins(told):
 
 
 def test_an_unknown_difference_is_no_small_one():
-    row = {"rpm": 4000.0, "rpm_error": np.nan, "bound": False}
+    row = {"rpm": 4000.0, "rpm_error": np.nan, "least": False, "bound": False}
     assert margins.speed(row) == "4000 (no ±)"
-    assert margins.speed(row | {"rpm_error": 0.0}) == "4000"
+    assert margins.speed(row | {"rpm_error": 0.0, "least": False}) == "4000"
+    assert margins.speed(row | {"rpm_error": 9.2, "least": True}) == "4000 ≥9.2"
