@@ -47,6 +47,7 @@ COLUMNS = (  # of the numbers of ``sweeps.peak_results``
     Column("torque", "N m", 1.0, "torque N m"),
     Column("stress", "MPa", 1e-6, "stress MPa"),
 )
+LOADS = {"opening", "force", "force_peak", "torque", "stress"}  # numbers of the second table
 AT_END = ("at the end", "τ rev.", "mm³/rev.")  # heads
 MEANING = {  # of the columns
     "amplitude": "of the tip's radial displacement at ξ = 1/16, along the engine order k, over the "
@@ -231,11 +232,10 @@ def table(summary: Mapping[str, Any]) -> str:
     """Markdown: a table for each scene, what is not known, and what the numbers are."""
     parts = ["# Summary", ""]
     for scene in summary["scenes"]:
-        heads, rows = shown(scene)
         parts += [f"## {scene['scene']}", "", about(scene), ""]
-        near = margins.table(scene["margins"])
-        of_margins = [markdown.table(margins.HEADS, near), ""] if near else []
-        parts += [markdown.table(heads, rows), "", *of_margins, *notes(scene), ""]
+        tables = [*shown(scene), (margins.HEADS, margins.table(scene["margins"]))]
+        parts += [line for of in tables if of[1] for line in (markdown.table(*of), "")]
+        parts += [*notes(scene), ""]
     return "\n".join([*parts, meaning()]) + "\n"
 
 
@@ -254,8 +254,8 @@ def terminal(summary: Mapping[str, Any]) -> str:
     """The same for a terminal, in columns."""
     parts = []
     for scene in summary["scenes"]:
-        heads, rows = shown(scene)
-        parts += ["", f"{scene['scene']}: {about(scene)}", *columns(heads, rows), *notes(scene)]
+        lines = [line for of in shown(scene) for line in (*columns(*of), "")]
+        parts += ["", f"{scene['scene']}: {about(scene)}", *lines, *notes(scene)]
     return "\n".join(parts)
 
 
@@ -267,12 +267,10 @@ def panel(
     ``found``: as of ``simulate.sweeps.peak.critical``; ``stress``: as of ``stress.json``.
     """
     scene = _scene(answers, _of_page(stress), found)
-    heads, rows = shown(scene)
+    tables = [*shown(scene), (margins.HEADS, margins.table(scene["margins"]))]
     return {
         "about": about(scene),
-        "heads": heads,
-        "rows": rows,
-        "margins": {"heads": margins.HEADS, "rows": margins.table(scene["margins"])},
+        "tables": [{"heads": heads, "rows": rows} for heads, rows in tables],
         "notes": notes(scene),
         "speeds": [row["over_f1"] for row in scene["rows"]],
         "meaning": meaning(),
@@ -292,22 +290,37 @@ def columns(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
     ]
 
 
-def shown(scene: Mapping[str, Any]) -> tuple[list[str], list[list[str]]]:
-    """Heads and cells of a scene's table; columns without any number are left out."""
-    kept = known(row["values"] for row in scene["rows"])
-    heads = ["EO", "rpm", "Ω / f₁(0)", "Hz", *(column.head for column in kept), *AT_END, ""]
-    return heads, [
+def shown(scene: Mapping[str, Any]) -> list[tuple[list[str], list[list[str]]]]:
+    """Heads and rows of a scene's tables: motion and wear, then loads; without empty columns."""
+    kept, rows = known(row["values"] for row in scene["rows"]), scene["rows"]
+    motion, loads = ([of for of in kept if (of.name in LOADS) is among] for among in (False, True))
+    of_motion = [
+        [_order(row), margins.speed(row), *_cells(row, motion), *_at_end(row), row["word"]]
+        for row in rows
+    ]
+    of_loads = [
         [
-            str(row["k"] or "-"),
-            margins.speed(row),
+            _order(row),
             f"{row['over_f1']:.3f}",
             f"{row['hz']:.1f}" if row["hz"] else "-",
-            *(_cell(row, column) for column in kept),
-            *_at_end(row),
-            row["word"],
+            *_cells(row, loads),
         ]
-        for row in scene["rows"]
+        for row in rows
     ]
+    return [
+        (["EO", "rpm", *(of.head for of in motion), *AT_END, ""], of_motion),
+        (["EO", "Ω / f₁(0)", "Hz", *(of.head for of in loads)], of_loads),
+    ]
+
+
+def _order(row: Row) -> str:
+    """The engine order of a peak; a dash without one."""
+    return str(row["k"] or "-")
+
+
+def _cells(row: Row, columns: Iterable[Column]) -> list[str]:
+    """The numbers of a row under these columns."""
+    return [_cell(row, column) for column in columns]
 
 
 def _cell(row: Row, column: Column) -> str:

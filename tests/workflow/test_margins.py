@@ -123,7 +123,7 @@ def test_a_crossing_beyond_the_top_speed_is_told_alike_everywhere(told, rom):
 def test_tables_of_summary_page_and_file_and_marks_of_the_campbell_diagram_are_the_same(told, rom):
     found = told()
     rows = found["scenes"][0]["margins"]
-    page = summary.panel(MINE, critical(rom, OPERATING), {})["margins"]
+    page = summary.panel(MINE, critical(rom, OPERATING), {})["tables"][-1]
     assert (page["heads"], page["rows"]) == (margins.HEADS, margins.table(rows))
     for cells in page["rows"]:
         assert f"| {' | '.join(cells)} |" in summary.table(found)
@@ -173,7 +173,7 @@ def test_where_nothing_is_near_the_next_are_told(told):
 
 def test_a_blade_without_operating_speeds_has_no_margins(told):
     found = summary.panel(MINE, {}, {})
-    assert found["margins"]["rows"] == []
+    assert found["tables"][-1]["rows"] == []
     assert not any("Margins" in note or "next" in note for note in found["notes"])
 
 

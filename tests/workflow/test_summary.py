@@ -68,9 +68,9 @@ def read_csv(found):
 
 
 def cells(found):
-    """Cells of the one row as they are shown."""
-    (row,) = summary.shown(found["scenes"][0])[1]
-    return row
+    """Cells of the one row of each table as they are shown."""
+    tables = summary.shown(found["scenes"][0])
+    return [cell for _, (row,) in tables for cell in row]
 
 
 @pytest.fixture
@@ -121,7 +121,7 @@ def test_what_is_not_known_is_said(summed):
     found = summed({"numbers": numbers, "errors": {}}, doubt=doubt, no_torque="a reason")
     text = summary.terminal(found)
     assert all(what in text for what in ("mesh", "record.states_rounds", "torque (a reason)"))
-    assert cells(found)[4:6] == ["40 (no ±)", "170 (no ±)"]
+    assert cells(found)[2] == "40 (no ±)" and "170 (no ±)" in cells(found)
     row = read_csv(found)
     assert row["torque (N m)"] == row["amplitude +- (um)"] == ""
     elsewhere = summed(stress=STRESS | {"speed_over_f1": 0.36})
@@ -183,7 +183,7 @@ def test_a_second_run_without_result_is_not_known(summed, part, missing):
 
 def test_a_run_that_ended_early_has_a_trend_alone(summed):
     found = summed({"status": "diverged", "verdict": "", "course": {"trend": GROWING}})
-    assert cells(found)[-4:] == [GROWING, "-", "-", "diverged"]
+    assert cells(found)[6:10] == [GROWING, "-", "-", "diverged"]
     assert "damping" not in summary.terminal(found)
     assert read_csv(found)["time_constant (rounds)"] == ""
 
@@ -193,8 +193,8 @@ def test_a_run_says_whether_it_is_steady(summed, trend):
     """No bare +- stands at an amplitude that still grows, or dies out."""
     found = summed({"course": ANSWER["course"] | {"trend": trend}})
     moves = trend in (GROWING, DYING_OUT)
-    assert cells(found)[4] == (f"40 ±5%, {trend}" if moves else "40 ±5%")
-    assert cells(found)[-4:] == [trend, "18.2", "0.003", ONE_MOTION]
+    assert cells(found)[2] == (f"40 ±5%, {trend}" if moves else "40 ±5%")
+    assert [trend, "18.2", "0.003", ONE_MOTION] == cells(found)[6:10]
     row = read_csv(found)
     assert row["trend"] == trend and float(row["largest_round (round)"]) == 17
     assert float(row["time_constant (rounds)"]) == 18.2
@@ -203,7 +203,7 @@ def test_a_run_says_whether_it_is_steady(summed, trend):
 
 def test_a_peak_with_two_motions_has_both_numbers(summed):
     found = summed({"verdict": TWO_MOTIONS, "other": NUMBERS | {"amplitude": 9e-6}})
-    assert cells(found)[4] == "40 or 9 ±5%"
+    assert cells(found)[2] == "40 or 9 ±5%"
     row = read_csv(found)
     assert (row["word"], float(row["amplitude other (um)"])) == (TWO_MOTIONS, pytest.approx(9))
 
@@ -216,6 +216,7 @@ def test_a_run_without_a_result_has_its_status(summed):
 
 def test_the_panel_of_a_page_has_the_rows_of_the_summary(summed):
     panel = summary.panel(OF, {}, PAGE)
-    heads, rows = summary.shown(summed(page=PAGE)["scenes"][0])
-    assert (panel["heads"], panel["rows"], panel["speeds"]) == (heads, rows, [0.35])
-    assert panel["margins"]["rows"] == []
+    shown = summary.shown(summed(page=PAGE)["scenes"][0])
+    tables = [(of["heads"], of["rows"]) for of in panel["tables"]]
+    assert (tables[:-1], panel["speeds"]) == (shown, [0.35])  # the last is that of the margins
+    assert panel["tables"][-1]["rows"] == []

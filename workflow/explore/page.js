@@ -296,13 +296,12 @@ function showAnswers(codes) {
   byId("of_scene").textContent = told.about;
   const table = ({ heads, rows }) => `<thead><tr>${cells("th", heads)}</tr></thead><tbody>` +
     rows.map((row) => `<tr>${cells("td", row)}</tr>`).join("") + "</tbody>";
-  byId("peaks").innerHTML = table(told);
-  byId("margins").innerHTML = table(told.margins);
-  byId("margins").parentElement.hidden = !told.margins.rows.length;
+  ["peaks", "loads", "margins"].forEach((name, i) => { byId(name).innerHTML = table(told.tables[i]); });
+  byId("margins").parentElement.hidden = !told.tables[2].rows.length;
   byId("notes").innerHTML = told.notes.map((note) => `<li>${note}</li>`).join("");
   byId("explained").textContent = told.meaning;
-  byId("peaks").querySelectorAll("tbody tr").forEach((row, i) =>
-    row.addEventListener("click", () => choose(codes, nearest(told.speeds[i]))));
+  ["peaks", "loads"].forEach((name) => byId(name).querySelectorAll("tbody tr").forEach((row, i) =>
+    row.addEventListener("click", () => choose(codes, nearest(told.speeds[i])))));
 }
 
 function showSpeed() {
