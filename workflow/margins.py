@@ -108,13 +108,19 @@ def share(margin: float | None) -> str:
 
 
 def nearest(
-    found: Mapping[str, Any], margins: Sequence[Mapping[str, Any]], name: str
+    found: Mapping[str, Any],
+    margins: Sequence[Mapping[str, Any]],
+    name: str,
+    of: str = "critical speed",
 ) -> Iterator[str]:
-    """The critical speed next above and next below an operating speed, a line each."""
+    """The critical speed next above and next below an operating speed, a line each.
+
+    ``of``: what the ``margins`` are of, for the words.
+    """
     for side, sign in (("above", 1), ("below", -1)):
         near = [row for row in margins if row["line"] == name and sign * row["speed_margin"] > 0]
-        told = _told(near[0]) if near else f"none up to {found['up_to']:.0f} rpm"
-        yield f"{name.capitalize()} speed {found['lines'][name]:.0f} rpm, next {side}: {told}."
+        told = _told(near[0]) if near else "none" + f" up to {found['up_to']:.0f} rpm" * (sign > 0)
+        yield f"{name.capitalize()} speed {found['lines'][name]:.0f} rpm, next {of} {side}: {told}."
 
 
 def _told(row: Mapping[str, Any]) -> str:

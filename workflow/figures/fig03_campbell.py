@@ -55,7 +55,7 @@ def draw(
         units.show(axes.xaxis, style.below, *both["speed"])
     if printed:
         _printed(first)
-    told = {name: "\n".join(margins.nearest(found, rows, name)) for name in lines}
+    told = {name: "\n".join(margins.nearest(found, rows, name, "crossing")) for name in lines}
     operating_lines(drawn, first, rom.f1, lines, told)
     operating_lines(None, every, rom.f1, lines)
     opaque = {"frameon": True, "framealpha": 1.0, "edgecolor": "none"}
