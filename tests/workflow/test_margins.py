@@ -25,7 +25,9 @@ LINES = {"design": DESIGN * RPM, "idle": IDLE * RPM}
 OPERATING = {"lines": LINES, "modes": 3, "orders": [1, 2, 3, 4, 5, 6], "peaks": [7, 8]}
 PEAK = ANSWER | {"k": 5, "Omega_c": 0.25, "spacing": 0.01, "crossing": 0.227}
 MINE = OF | {"f1_Hz": F1, "blade": "reference", "peaks": [PEAK]}
-NEXT = re.compile(r"next [a-z ]* (above|below): (\d+)[^,]*, ([^:]*): speed (\S+) %, frequency (\S+) %")
+NEXT = re.compile(
+    r"next [a-z ]* (above|below): (\d+)[^,]*, ([^:]*): speed (\S+) %, frequency (\S+) %"
+)
 
 
 @pytest.fixture(scope="module")
@@ -103,9 +105,8 @@ def of_csv(found):
 def test_a_crossing_beyond_the_top_speed_is_told_alike_everywhere(told, rom):
     """12 % above the design speed, of k = 4: in summary, terminal, CSV, page and Campbell."""
     found = told(peaks=[])
-    line = (
-        rf"Design speed {DESIGN * RPM:.0f} rpm, next (crossing|critical speed) above: {CROSSING * RPM:.0f}( ±[\d.]+)? rpm, "
-    )
+    line = rf"Design speed {DESIGN * RPM:.0f} rpm, next (crossing|critical speed) above: "
+    line += rf"{CROSSING * RPM:.0f}( ±[\d.]+)? rpm, "
     line += r"extrapolated crossing of EO 4 with mode 1: speed \+12.0 %, frequency \+8.0 %"
     page = summary.panel(MINE | {"peaks": []}, critical(rom, OPERATING), {})
     texts = (summary.table(found), summary.terminal(found), "\n".join(page["notes"]), legend(rom))
@@ -167,7 +168,9 @@ def test_where_nothing_is_near_the_next_are_told(told):
     found = told({"design": 0.1 * RPM}, peaks=[])
     assert margins.table(found["scenes"][0]["margins"]) == []
     text = summary.terminal(found)
-    assert re.search(r"Design speed 600 rpm, next critical speed above: 785 ±0.79 rpm, crossing of EO 8", text)
+    assert re.search(
+        r"Design speed 600 rpm, next critical speed above: 785 ±0.79 rpm, crossing of EO 8", text
+    )
     assert "Design speed 600 rpm, next critical speed below: none." in text
 
 
