@@ -62,7 +62,8 @@ def at_rest(solid: Solid, Omega: float) -> NDArray[np.float64]:
     nodes = np.empty(len(X), int)  # of the mesh, by node of the space
     nodes[solid.V.dofmap.list] = solid.mesh.geometry.dofmaps[0]
 
-    def left(places: NDArray) -> NDArray:
+    def left(places: NDArray[np.float64]) -> NDArray[np.float64]:
+        """X + u(X) - x, (3 n,), over the blade's size, for nodes X at ``places`` (3 n,), m."""
         X[:] = places.reshape(-1, 3)
         (state,) = nonlinear_states(solid, np.array([Omega]), cholesky)
         u[nodes] = solid.field(state.u_static).x.array.reshape(-1, 3)

@@ -136,7 +136,9 @@ def write_moved(mesh_path: Path, moved_path: str | Path, places: NDArray[np.floa
         for node, place in zip(np.sort(nodes), places, strict=True):
             gmsh.model.mesh.setNode(node, place, [])
         if not jacobian_ratios().min() > 0:
-            raise MeshError("cells are inside out at rest: make the elements smaller")
+            raise MeshError(
+                "cells are inside out at rest: make the elements smaller", key="geometry_at_rpm"
+            )
         _written(temporary, moved_path)
 
 

@@ -50,8 +50,8 @@ COLUMNS = (  # of the numbers of ``sweeps.peak_results``
 LOADS = {"opening", "force", "force_peak", "torque", "stress"}  # numbers of the second table
 AT_END = ("at the end", "τ rev.", "mm³/rev.")  # heads
 MEANING = {  # of the columns
-    "amplitude": "of the tip's radial displacement at ξ = 1/16, along the engine order k, over the "
-    "last revolutions of the run",
+    "amplitude": "of the tip's radial displacement at ξ = 1/16, along the engine order EO, over "
+    "the last revolutions of the run",
     "largest": "largest |u_r| there in the whole run, and the revolution of it",
     "wear": "deepest, mean over the leading eighth of the chord",
     "opening": "worn volume over the area that the tip sweeps",

@@ -16,9 +16,8 @@ mode and the engine orders rise and fall within tau; wear may change the motion 
 Rounds in which the casing's distortion still changes do not count. The limits are those by which
 drawn scenes, marched ten time constants on, refute few of the words (tests/simulate/test_trend.py).
 
-A run that ends when it is steady is judged again and again, and may seem so once by chance: of
-drawn scenes that end at the first round at which they do three in a hundred are refuted. They end
-where they are steady at two looks in turn, the second after half as many rounds again: one is.
+A run that ends when it is steady is judged again and again, and may seem so once by chance. It
+ends where it is steady at two looks in turn, the second after half as many rounds again.
 """
 
 from dataclasses import dataclass
