@@ -15,13 +15,13 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from geometry.blade import RPM
 from rom.model import Rom
 from simulate.errors.observables import Numbers
 from simulate.errors.signals import amplitude, leading_gap
 from simulate.scene import BESIDE
 from simulate.sweeps.dataset import scene_of
 
-RPM = 30 / np.pi  # of rad/s
 ORDERS = range(3, 15)  # engine orders along which peaks are sought
 # Speeds over the crossing at which a peak may lie: contact stiffens, a tangential force may soften
 STIFFENED, SOFTENED, HIGHEST = 0.97, 0.93, 1.4
