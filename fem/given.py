@@ -1,57 +1,47 @@
 """Full matrices made elsewhere, read into those of this project, with their interface operator."""
 
 from collections.abc import Sequence
-from functools import partial
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.io import mmread
-from scipy.sparse import csr_matrix, load_npz
+from scipy.sparse import csr_matrix, eye_array
 
-from fem.interface import directions, on_patches
+from fem.deck import Deck, deck_of
+from fem.interface import directions
 from fem.matrices import CODE, Matrices
-from geometry.given import (
-    OFF_LINE,
-    SYMMETRIC,
-    Check,
-    FullMatrices,
-    GivenMatrices,
-    failed,
-    tip_checks,
-)
+from fem.matrix_files import GivenError, read_matrix, require
+from geometry.given import OFF_LINE, SYMMETRIC, FullMatrices, GivenMatrices, tip_checks
 from geometry.hats import hat_nodes
 from geometry.project import (
     Provenance,
-    UserError,
     about,
     code_hash,
     csv_rows,
     file_hash,
     fingerprint,
     numbers,
-    require_file,
 )
 from geometry.tip import PLACES, cartesian, on_line
 
 XYZ = ("x", "y", "z")
-READERS = {".mtx": partial(mmread, spmatrix=False), ".npz": load_npz}
-# Coordinates to a micrometre err by 6e-6 in forces of rotations, six digits of K by 6e-7; another
-# order of DoFs by 1e-3 and more.
+# Coordinates to a micrometre err by 4e-6 in forces of rotations, one axis longer by a tenth by 4e-5
+# to 7e-5, another order of DoFs by 1e-3 and more.
+SAME_PLACES = 2e-5
 RIGID = 1e-4
+# Digits of K: ten err by 5e-11 in forces of translations, and by 5e-5 in f1; nine by 4e-4 in f1,
+# seven by a tenth, for bending of a thin blade is the small difference of large entries.
+DIGITS = 1e-9
 # kg/m3; a quarter of the material's for solid blades, less for hollow ones: units err by 1000.
 DENSITY = 20.0, 25000.0
 # m/s; a tapered blade of metal has 7000 to 8000. Units err by the root of 1000: from anywhere in
 # this range that leads out of it.
 WAVE_SPEED = 1000.0, 30000.0
+LARGEST = 1e30  # on the diagonal, in any unit: Abaqus constrains a direction by 1e36
 CHANGE = 1e-9, 0.5  # blades of this project have 4e-4 to 0.02
 
 # file, what, value, allowed, remedy
 type Measure = tuple[str, str, float, tuple[float, float], str]
-
-
-class GivenError(UserError):
-    """A file of given matrices that cannot be read or does not fit the others."""
 
 
 def read_matrices(blade: GivenMatrices, name: str, folder: str | Path) -> Matrices:
@@ -67,28 +57,22 @@ def read_matrices(blade: GivenMatrices, name: str, folder: str | Path) -> Matric
         When the facets of the tip do not allow the interface.
     """
     of, folder = blade.full_matrices, Path(folder)
-    nodes = _table(folder / of.nodes, XYZ)
-    n_full = 3 * len(nodes)
-    M = _symmetric(folder / of.M, n_full)
-    K = tuple(_symmetric(folder / of.K[speed], n_full) for speed in blade.speeds)
-    if of.tip is None:
-        S = _matrix(folder / of.S, (3 * blade.patches, n_full))
-        camber = _camber(_table(folder / of.camber, XYZ))
-    else:
-        facets = _facets(folder / of.tip, len(nodes))
-        S, camber = on_patches(nodes, facets, np.arange(n_full), blade.patches)
+    deck = deck_of(of.mesh_file, folder) if of.mesh_file else _of_nodes(of, folder)
+    M = _symmetric(folder / of.M, "M", deck)
+    K = tuple(_symmetric(folder / of.K[speed], "K", deck) for speed in blade.speeds)
+    S, camber = _interface(of, folder, deck, blade.patches)
     files = [file_hash(folder / file) for file in blade.files]
     fom = Matrices(
         M=M,
         K=K,
         S=S,
-        coordinates=nodes,
+        coordinates=deck.coordinates,
         xi=hat_nodes(blade.patches),
         points=np.empty((0, 3)),
         camber=camber,
-        span=float(camber[:, 0].mean() - of.hub_radius_m),
+        span=float(camber[:, 0].mean() - deck.hub_radius),
         speeds=np.array(blade.speeds),
-        u_static=np.full((len(K), n_full), np.nan),  # not known
+        u_static=np.full((len(K), M.shape[0]), np.nan),  # not known
         residuals=np.full(len(K), np.nan),
         provenance=Provenance(
             name, fingerprint(files), blade.settings_of_matrices(), code_hash(*CODE)
@@ -98,15 +82,42 @@ def read_matrices(blade: GivenMatrices, name: str, folder: str | Path) -> Matric
     return fom
 
 
-def _require(path: Path, *checks: Check) -> None:
-    """Refuse the file at ``path`` by the first fault whose check does not hold."""
-    if faults := failed(*checks):
-        raise GivenError(faults[0], file=path)
+def _of_nodes(of: FullMatrices, folder: Path) -> Deck:
+    """Nodes of a table, all free, and facets of the tip between them."""
+    nodes = _table(folder / of.nodes, XYZ)
+    return Deck(
+        numbers=np.arange(len(nodes)) + 1,
+        clamped=np.empty(0, dtype=int),
+        coordinates=nodes,
+        hub_radius=of.hub_radius_m,
+        points=nodes,
+        tip=_facets(folder / of.tip, len(nodes)) if of.tip else np.empty((0, 6), dtype=int),
+        weights=eye_array(len(nodes)),
+    )
+
+
+def _interface(
+    of: FullMatrices, folder: Path, deck: Deck, patches: int
+) -> tuple[csr_matrix, NDArray[np.float64]]:
+    """S (3 patches, n_full) and camber line, of files or on the facets of the tip."""
+    if of.S is None:
+        return deck.interface(patches)
+    S, needed = read_matrix(folder / of.S, "S").A, (3 * patches, 3 * len(deck.numbers))
+    require(
+        folder / of.S,
+        (
+            S.shape == needed,
+            f"{S.shape[0]} rows and {S.shape[1]} columns, needs {needed[0]} and {needed[1]}: three "
+            "for each of `patches` and `nodes`",
+        ),
+    )
+    return S, _camber(_table(folder / of.camber, XYZ))
 
 
 def _check(fom: Matrices, of: FullMatrices, folder: Path) -> None:
     """Check that the matrices are those of a blade in SI, in its frame, at its nodes."""
-    _require(folder / (of.camber or of.nodes), *tip_checks(fom.camber, fom.span, fom.top_speed))
+    mesh = of.mesh_file.file if of.mesh_file else of.nodes
+    require(folder / (of.camber or mesh), *tip_checks(fom.camber, fom.span, fom.top_speed))
     measures = [
         *_of_mass(fom, of),
         *_of_stiffness(fom, of),
@@ -114,7 +125,7 @@ def _check(fom: Matrices, of: FullMatrices, folder: Path) -> None:
     ]
     for file, what, value, (least, most), remedy in measures:
         fault = f"{what}: {value:.3g}, allowed {least:g} to {most:g}: {remedy}"
-        _require(folder / file, (least <= value <= most, fault))
+        require(folder / file, (least <= value <= most, fault))
 
 
 def _of_mass(fom: Matrices, of: FullMatrices) -> list[Measure]:
@@ -141,12 +152,13 @@ def _of_mass(fom: Matrices, of: FullMatrices) -> list[Measure]:
 
 
 def _of_stiffness(fom: Matrices, of: FullMatrices) -> list[Measure]:
-    """Rotations need forces at the clamp alone; how fast waves run shows units.
+    """Rigid motions need forces at the clamp alone; how fast waves run shows units.
 
     Speed changes the matrix little, but does change it.
     """
     x, K = fom.coordinates, fom.K[0]
     turned = np.cross(np.eye(3)[:, None], x - x.mean(axis=0)).reshape(3, -1).T
+    moved = np.tile(np.eye(3), (len(x), 1))
     forces, alone = K @ turned, abs(K) @ abs(turned)
     r = np.hypot(x[:, 0], x[:, 1])
     away = np.repeat(r > np.median(r), 3)
@@ -158,8 +170,16 @@ def _of_stiffness(fom: Matrices, of: FullMatrices) -> list[Measure]:
             of.K[0],
             "forces away from the clamp in rotations of the whole blade, over those of single DoFs",
             np.linalg.norm(forces[away]) / np.linalg.norm(alone[away]),
-            (0.0, RIGID),
+            (0.0, SAME_PLACES),
             "nodes must be in the order and the frame of the matrices, DoFs x, y, z of each",
+        ),
+        (
+            of.K[0],
+            "forces away from the clamp in translations of the whole blade, over those of single "
+            "DoFs",
+            np.linalg.norm((K @ moved)[away]) / np.linalg.norm((abs(K) @ moved)[away]),
+            (0.0, DIGITS),
+            "K needs nine digits, better ten: fewer lose the bending of a thin blade in round-off",
         ),
         (
             of.K[0],
@@ -210,34 +230,14 @@ def _of_operator(fom: Matrices, of: FullMatrices) -> list[Measure]:
     ]
 
 
-def _matrix(path: Path, shape: tuple[int, int]) -> csr_matrix:
+def _symmetric(path: Path, letter: str, deck: Deck) -> csr_matrix:
+    """M or K (3 n, 3 n); symmetric to the last bit."""
     with about(path, GivenError):
-        require_file(path, READERS)
-    try:
-        A = csr_matrix(READERS[path.suffix.lower()](path))
-    except Exception as error:  # readers raise various exceptions for damaged files
-        raise GivenError(f"cannot be read as {path.suffix} ({error!r})", file=path) from None
-    _require(
-        path,
-        (
-            A.shape == shape,
-            f"{A.shape[0]} rows and {A.shape[1]} columns, needs {shape[0]} and {shape[1]}: "
-            f"three for each row of `nodes`, and in S for each of `patches`",
-        ),
-        (
-            np.isrealobj(A.data) and np.isfinite(A.data).all(),
-            "holds values that are not finite real numbers",
-        ),
-    )
-    return A.astype(float)
-
-
-def _symmetric(path: Path, n: int) -> csr_matrix:
-    """A symmetric matrix (n, n); symmetric to the last bit."""
-    A = _matrix(path, (n, n))
+        A = deck.matrix(read_matrix(path, letter))
     apart = abs(A - A.T).max() / (abs(A).max() or 1.0)
-    least = A.diagonal().argmin()
-    _require(
+    diagonal = A.diagonal()
+    worst = int(np.argmax(~((diagonal > 0) & (diagonal < LARGEST))))
+    require(
         path,
         (
             apart <= SYMMETRIC,
@@ -245,9 +245,10 @@ def _symmetric(path: Path, n: int) -> csr_matrix:
             f"triangle alone needs the word `symmetric` in its first line)",
         ),
         (
-            A[least, least] > 0,
-            f"{A[least, least]:.3g} on the diagonal of row {least + 1}; must be above 0: each DoF "
-            f"has mass and stiffness, and only those that are not clamped belong to it",
+            0 < diagonal[worst] < LARGEST,
+            f"{diagonal[worst]:.3g} on the diagonal of row {worst + 1}; must be above 0: each DoF "
+            f"has mass and stiffness, and only those that are not clamped belong to it: check node "
+            f"{deck.numbers[worst // 3]}, direction {worst % 3 + 1}",
         ),
     )
     return csr_matrix((A + A.T) / 2)
@@ -257,7 +258,7 @@ def _table(path: Path, columns: Sequence[str]) -> NDArray[np.float64]:
     """Numbers (rows, columns) of a CSV file without a header; lines with # are comments."""
     with about(path, GivenError):
         rows = [numbers(cells, columns, line) for line, cells in csv_rows(path)]
-    _require(path, (len(rows) > 0, f"has no row of {', '.join(columns)}"))
+    require(path, (len(rows) > 0, f"has no row of {', '.join(columns)}"))
     return np.array(rows)
 
 
@@ -265,7 +266,7 @@ def _facets(path: Path, nodes: int) -> NDArray[np.int64]:
     """Facets (k, 6) by rows of the nodes, from 0."""
     values = _table(path, [f"node {i}" for i in range(1, 7)])
     facets = values.astype(int)
-    _require(
+    require(
         path,
         (
             np.all(facets == values) and facets.min() >= 1 and facets.max() <= nodes,

@@ -113,6 +113,7 @@ def mesh_of(cards: list[Card]) -> FileMesh:
     of_kinds = {kind: [i for i, (of, _) in elements.items() if of == kind] for kind in kinds}
     return as_tetrahedra(
         np.array(list(nodes.values()), dtype=float),
+        np.array(list(nodes)),
         [
             Solids(kind, rows([elements[i][1] for i in of]), np.array(of))
             for kind, of in of_kinds.items()

@@ -67,6 +67,7 @@ def read_archive(path: Path) -> FileMesh:
     solids, faces = _sorted(archive, row)
     return as_tetrahedra(
         np.asarray(archive.nodes, dtype=float),
+        archive.nnum,
         _solids(solids),
         node_groups={
             name.upper(): _rows(numbers, row) for name, numbers in archive.node_components.items()

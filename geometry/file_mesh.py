@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import csr_matrix
 
 from geometry.blade import Material
 from geometry.project import MeshError
@@ -66,6 +67,8 @@ class FileMesh:
     points: NDArray[np.float64]  # (n, 3)
     cells: NDArray[np.int64]  # (m, 10), nodes in VTK's order
     numbers: NDArray[np.int64]  # (m,), of the cells of the file that they are of
+    node_numbers: NDArray[np.int64]  # (given,), of the nodes of the file
+    weights: csr_matrix  # (n, given), of the nodes of the file in the place of each point
     node_groups: dict[str, NDArray] = field(default_factory=dict)  # nodes (k,)
     face_groups: dict[str, NDArray] = field(default_factory=dict)  # corner nodes (k, 3), k may be 0
     materials: tuple[FileMaterial, ...] = ()  # of its cells, where the file names them
@@ -85,6 +88,7 @@ class FileMesh:
         return replace(
             self,
             points=self.points[used],
+            weights=self.weights[used],
             cells=new[self.cells],
             node_groups={n: new[nodes][new[nodes] >= 0] for n, nodes in self.node_groups.items()},
             face_groups={n: new[faces] for n, faces in self.face_groups.items()},
@@ -101,6 +105,7 @@ class Solids(NamedTuple):
 
 def as_tetrahedra(
     points: NDArray[np.float64],
+    node_numbers: NDArray[np.int64],
     solids: Sequence[Solids],
     node_groups: Mapping[str, NDArray],
     faces: Mapping[str, Sequence[Sequence[int]]],
@@ -108,7 +113,8 @@ def as_tetrahedra(
 ) -> FileMesh:
     """The mesh of all solid cells, as tetrahedra (``geometry.split``).
 
-    ``faces``: corners of triangles and quadrilaterals by group.
+    ``points`` (given, 3) and ``node_numbers`` (given,) are those of the file; ``faces``: corners of
+    triangles and quadrilaterals by group.
 
     Raises
     ------
@@ -128,6 +134,8 @@ def as_tetrahedra(
         points=found.points,
         cells=found.cells,
         numbers=found.numbers,
+        node_numbers=node_numbers,
+        weights=found.weights,
         node_groups={name: found.with_new(nodes) for name, nodes in node_groups.items()},
         face_groups={name: triangles_of(of) for name, of in faces.items()},
         materials=materials,

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
-from geometry.blade import MOST_TIP_SPEED, Blade, EnrichedBasis, settings_of_basis
+from geometry.blade import MOST_TIP_SPEED, Blade, EnrichedBasis, MeshFile, settings_of_basis
 from geometry.frame import LENGTHS
 from geometry.project import (
     Settings,
@@ -21,6 +21,8 @@ from geometry.project import (
 SYMMETRIC = 1e-9  # of the largest entry: difference of symmetric ones
 OFF_LINE = 0.1  # of the chord: distance of an interface point from the camber line at its xi
 MOST_ARC = pi / 2  # rad, of the tip; those of blades take up to 0.7
+
+NAMES = {".sti": ".dof", ".mas": ".dof"}  # of the rows: suffix of the file beside
 
 File = Annotated[str, Field(min_length=1)]
 
@@ -48,17 +50,30 @@ class GivenModel(SettingsFile):
 
 
 class FullMatrices(Settings):
-    """Files of the matrices of a clamped blade in the blade's frame, SI; paths as `reduced_model`.
+    """Files of the matrices of a blade; paths as `reduced_model`.
 
-    DoF 3 p + c, from 0, is component c (x, y, z) of row p of ``nodes``.
+    With ``mesh_file`` they are in its axes and unit, as the program wrote them. Without it they are
+    of the clamped blade in its frame, SI: DoF 3 p + c, from 0, is component c (x, y, z) of row p of
+    ``nodes``.
     """
 
-    M: File = Field(description="Mass matrix (kg), Matrix Market (.mtx) or SciPy's .npz")
+    M: File = Field(
+        description="Mass matrix: .mtx of Matrix Market or Abaqus, .npz of SciPy, .mas of "
+        "CalculiX, .pch of Nastran, .full of Ansys"
+    )
     K: dict[Annotated[float, Field(ge=0)], File] = Field(
         min_length=1,
-        description="Stiffness matrix (N/m) by speed (rad/s), the prestressed tangent; 0 is rest",
+        description="Stiffness matrix by speed (rad/s), the prestressed tangent; 0 is rest. As "
+        "`M`, of CalculiX .sti",
     )
-    nodes: File = Field(description="Nodes that are not clamped (CSV: x, y, z, m), one a row")
+    mesh_file: MeshFile | None = Field(
+        default=None, description="The mesh that the matrices are of (.inp, .cdb or .bdf)"
+    )
+    nodes: File | None = Field(
+        default=None,
+        description="Instead of `mesh_file`: nodes that are not clamped (CSV: x, y, z, m), one a "
+        "row",
+    )
     tip: File | None = Field(
         default=None,
         description="Facets of the tip (CSV), each three corners and the middles of the edges "
@@ -73,12 +88,19 @@ class FullMatrices(Settings):
         default=None,
         description="With `S`: camber line of the tip (CSV: x, y, z, m), evenly spaced in xi",
     )
-    hub_radius_m: float = Field(gt=0, description="Mean radius of the clamped nodes (m)")
+    hub_radius_m: float | None = Field(
+        default=None, gt=0, description="With `nodes`: mean radius of the clamped nodes (m)"
+    )
 
     @checked
-    def _from_rest_with_facets_or_operator(self) -> None:
-        if (self.tip is None) == (self.S is None) or (self.S is None) != (self.camber is None):
-            raise ValueError("needs either tip, or S and camber")
+    def _from_rest_with_mesh_facets_or_operator(self) -> None:
+        given = self.model_fields_set - {"M", "K"}
+        table = {"nodes", "hub_radius_m"}
+        if given not in ({"mesh_file"}, table | {"tip"}, table | {"S", "camber"}):
+            raise ValueError(
+                "needs either mesh_file alone, or nodes and hub_radius_m, and with them either "
+                "tip, or S and camber"
+            )
         if 0.0 not in self.K:
             raise SettingsError('needs the matrix at rest, `"0": FILE`, among its speeds', key="K")
 
@@ -108,9 +130,10 @@ class GivenMatrices(SettingsFile):
     def files(self) -> list[PurePath]:
         """All files, from the folder of the blade's YAML; ``K`` by ascending speed."""
         of = self.full_matrices
-        others = [of.nodes, of.tip, of.S, of.camber]
-        K = [of.K[speed] for speed in self.speeds]
-        return [PurePath(file) for file in (of.M, *K, *others) if file is not None]
+        matrices = [PurePath(file) for file in (of.M, *(of.K[speed] for speed in self.speeds))]
+        rows = [file.with_suffix(NAMES[file.suffix]) for file in matrices if file.suffix in NAMES]
+        others = (of.mesh_file and of.mesh_file.file, of.nodes, of.tip, of.S, of.camber)
+        return list(dict.fromkeys([*matrices, *rows, *(PurePath(file) for file in others if file)]))
 
     @property
     def speeds(self) -> list[float]:
@@ -124,8 +147,11 @@ class GivenMatrices(SettingsFile):
 
     def settings_of_matrices(self) -> dict[str, Any]:
         """Settings on which the matrices depend, besides their files."""
-        return {"full_matrices": self.speeds, "interface": {"patches": self.patches}} | {
-            "max_speed_rad_s": self.top_speed
+        return {
+            "full_matrices": self.speeds,
+            "interface": {"patches": self.patches},
+            "max_speed_rad_s": self.top_speed,
+            "mesh": self.full_matrices.model_dump(mode="json", include={"mesh_file"}),
         }
 
     def settings_of_model(self) -> dict[str, Any]:

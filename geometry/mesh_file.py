@@ -106,6 +106,7 @@ def _of_meshio(mesh: meshio.Mesh) -> FileMesh:
     numbers = np.split(np.arange(sum(map(len, blocks))) + 1, np.cumsum([*map(len, blocks)])[:-1])
     return as_tetrahedra(
         mesh.points,
+        np.arange(len(mesh.points)) + 1,
         [
             Solids(block.type, _nodes(block, mesh.points), of)
             for block, of in zip(blocks, numbers, strict=True)

@@ -7,10 +7,10 @@ that do not have that node: a pyramid gives two tetrahedra, a wedge three, a bri
 diagonal from that node.
 
 Middle nodes of the diagonals come from the cell's own map, which in the middle of a quadrilateral
-and of a brick is that of eight and of twenty nodes: a sum over corners and middles of edges. Cells
-of first order are taken as those of second whose edges are straight: their quadrilaterals are
-warped, so that straight diagonals would cost a brick volume. Nodes within faces and cells (27, 18
-and 14 nodes) are left out.
+and of a brick is that of eight and of twenty nodes: a sum over corners and middles of edges, of
+places as of displacements. Cells of first order are taken as those of second whose edges are
+straight: their quadrilaterals are warped, so that straight diagonals would cost a brick volume.
+Nodes within faces and cells (27, 18 and 14 nodes) are left out.
 """
 
 from collections.abc import Sequence
@@ -19,11 +19,14 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import csr_matrix, eye_array, vstack
 
 from geometry.project import MeshError
 from geometry.tetrahedra import EDGES, FACETS, check_middles
 
-OF_FACE, OF_BRICK = (-1 / 4, 1 / 2), (-1 / 4, 1 / 4)  # weights of corners and middles of edges
+# weights, of corners and of middles of edges
+OF_EDGE = np.full(2, 1 / 2)
+OF_FACE, OF_BRICK = np.repeat([-1 / 4, 1 / 2], 4), np.repeat([-1 / 4, 1 / 4], [8, 12])
 
 
 class Kind(NamedTuple):
@@ -107,6 +110,7 @@ class Split(NamedTuple):
     """Ten-node tetrahedra, and what they were made of."""
 
     points: NDArray  # (n, 3), those of the file first
+    weights: csr_matrix  # (n, given), of those in the place, and the displacement, of each
     cells: NDArray  # (m, 10)
     numbers: NDArray  # (m,), of the cells of the file
     parents: NDArray  # (k, 4): corners of the edge, twice, or quadrilateral of each new node
@@ -122,8 +126,9 @@ class Split(NamedTuple):
 class _Edges:
     """Middle nodes of edges by their ends; new nodes stand behind those of the file."""
 
-    def __init__(self, points: NDArray) -> None:
-        self.points, self.parents = points, np.empty((0, 4), dtype=int)
+    def __init__(self, given: int) -> None:
+        self.weights = csr_matrix(eye_array(given))  # as of ``Split``
+        self.parents = np.empty((0, 4), dtype=int)
         self._ends, self._middles = np.empty((0, 2), dtype=int), np.empty(0, dtype=int)
 
     def know(self, ends: NDArray, middles: NDArray) -> None:
@@ -131,10 +136,14 @@ class _Edges:
         self._ends = np.vstack([self._ends, np.sort(ends, axis=1)])
         self._middles = np.append(self._middles, middles)
 
-    def make(self, ends: NDArray, places: NDArray, parents: NDArray) -> None:
-        """Add nodes at ``places`` (n, 3) in the middle of edges with ``ends`` (n, 2)."""
-        self.know(ends, len(self.points) + np.arange(len(ends)))
-        self.points = np.vstack([self.points, places])
+    def make(self, ends: NDArray, parents: NDArray, nodes: NDArray, weights: NDArray) -> None:
+        """Add the middles of edges with ``ends`` (n, 2): sums over ``nodes`` (n, k)."""
+        count = self.weights.shape[0]
+        self.know(ends, count + np.arange(len(ends)))
+        n, k = nodes.shape
+        of_rows = np.tile(weights, n), nodes.ravel(), k * np.arange(n + 1)
+        sums = csr_matrix(of_rows, (n, count))
+        self.weights = vstack([self.weights, sums @ self.weights], format="csr")
         self.parents = np.vstack([self.parents, parents])
 
     def check(self) -> None:
@@ -150,7 +159,8 @@ class _Edges:
     def middles(self, ends: NDArray) -> NDArray:
         """Middle nodes (...) of edges with ``ends`` (..., 2)."""
         known, asked = (
-            np.sort(of.reshape(-1, 2), axis=1) @ (len(self.points), 1) for of in (self._ends, ends)
+            np.sort(of.reshape(-1, 2), axis=1) @ (self.weights.shape[0], 1)
+            for of in (self._ends, ends)
         )
         order = np.argsort(known)
         at = np.searchsorted(known, asked, sorter=order)
@@ -180,13 +190,13 @@ def split(points: NDArray, blocks: Sequence[Block]) -> Split:
     MeshError
         When an edge has two middle nodes, or a quadrilateral of a cell meets triangles of others.
     """
-    edges = _Edges(points)
+    edges = _Edges(len(points))
     ends = np.vstack([block.corners[:, block.kind.edges].reshape(-1, 2) for block in blocks])
     if blocks[0].second_order:
         edges.know(ends, np.concatenate([block.middles.ravel() for block in blocks]))
     else:
         ends = np.unique(np.sort(ends, axis=1), axis=0)
-        edges.make(ends, points[ends].mean(axis=1), ends[:, [0, 0, 1, 1]])
+        edges.make(ends, ends[:, [0, 0, 1, 1]], ends, OF_EDGE)
     if any(block.kind is not KINDS["tetra"] for block in blocks):
         edges.check()
         _check_quadrilaterals(blocks)
@@ -197,7 +207,13 @@ def split(points: NDArray, blocks: Sequence[Block]) -> Split:
         np.repeat(block.numbers, len(of) // len(block.nodes))
         for block, of in zip(blocks, cells, strict=True)
     ]
-    return Split(edges.points, np.vstack(cells), np.concatenate(numbers), edges.parents)
+    return Split(
+        edges.weights @ points,
+        edges.weights,
+        np.vstack(cells),
+        np.concatenate(numbers),
+        edges.parents,
+    )
 
 
 def _check_quadrilaterals(blocks: Sequence[Block]) -> None:
@@ -231,23 +247,16 @@ def _cut_quadrilaterals(edges: _Edges, blocks: Sequence[Block]) -> None:
     _, first = np.unique(np.sort(quads, axis=1), axis=0, return_index=True)
     quads = quads[first]
     around = edges.middles(np.stack([quads, np.roll(quads, -1, axis=1)], axis=-1))
-    edges.make(quads[:, [0, 2]], _middle(edges.points, quads, around, OF_FACE), quads)
+    edges.make(quads[:, [0, 2]], quads, np.hstack([quads, around]), OF_FACE)
 
 
 def _cut_bricks(edges: _Edges, blocks: Sequence[Block]) -> None:
     """Add the middles of the diagonals through bricks, from the first of their corners."""
     for corners in (block.corners for block in blocks if block.kind is KINDS["hexahedron"]):
         around = edges.middles(corners[:, KINDS["hexahedron"].edges])
-        places = _middle(edges.points, corners, around, OF_BRICK)
         first = corners.argmin(axis=1)[:, None]
         ends = np.take_along_axis(corners, np.hstack([first, OPPOSITE[first]]), axis=1)
-        edges.make(ends, places, ends[:, [0, 0, 1, 1]])
-
-
-def _middle(points: NDArray, corners: NDArray, middles: NDArray, weights: tuple) -> NDArray:
-    """Places (n, 3) of sums over corners and middle nodes."""
-    of_corner, of_edge = weights
-    return of_corner * points[corners].sum(axis=1) + of_edge * points[middles].sum(axis=1)
+        edges.make(ends, ends[:, [0, 0, 1, 1]], np.hstack([corners, around]), OF_BRICK)
 
 
 def _from_first(faces: NDArray) -> NDArray:

@@ -1,4 +1,4 @@
-"""Frequencies by CalculiX (`ccx`, package calculix-ccx of Debian) of cells that we give it."""
+"""Frequencies and matrices by CalculiX (`ccx`, Debian's calculix-ccx) of cells that we give it."""
 
 import resource
 import shutil
@@ -42,22 +42,36 @@ def version() -> str:
 def frequencies(cells: Cells, material: Material, speed: float = 0.0) -> Found:
     """Lowest frequencies about the equilibrium at a speed (rad/s) about the z axis; one thread."""
     with TemporaryDirectory() as folder:
-        deck = Path(folder) / "blade.inp"
-        deck.write_text("\n".join([*_mesh(cells), *_material(material), *_steps(speed), ""]))
+        job = Path(folder) / "blade"
         before = _children()
-        log = subprocess.run(
-            [CCX, "-i", deck.stem],
-            cwd=folder,
-            env={"OMP_NUM_THREADS": "1"},
-            capture_output=True,
-            text=True,
-        )
+        log = _run(job, cells, material, _steps(speed, "*FREQUENCY"))
         seconds = _children() - before
-        result = deck.with_suffix(".dat")
+        result = job.with_suffix(".dat")
         found = _read(result.read_text()) if result.exists() else []
     if len(found) < COUNT:
-        raise RuntimeError(f"ccx found {len(found)} of {COUNT} frequencies:\n{log.stdout[-2000:]}")
+        raise RuntimeError(f"ccx found {len(found)} of {COUNT} frequencies:\n{log}")
     return Found(np.array(found[:COUNT]), seconds)
+
+
+def matrices(cells: Cells, material: Material, speed: float, job: Path) -> None:
+    """M and K at a speed (rad/s) in the files of a ``job``, with suffixes .mas, .sti and .dof."""
+    log = _run(job, cells, material, _steps(speed, "*FREQUENCY, SOLVER=MATRIXSTORAGE"))
+    if not job.with_suffix(".sti").exists():
+        raise RuntimeError(f"ccx wrote no matrices:\n{log}")
+
+
+def _run(job: Path, cells: Cells, material: Material, steps: Iterator[str]) -> str:
+    """Write the deck of a job and run it; the end of its log."""
+    lines = [*_mesh(cells), *_material(material), *steps, ""]
+    job.with_suffix(".inp").write_text("\n".join(lines))
+    log = subprocess.run(
+        [CCX, "-i", job.name],
+        cwd=job.parent,
+        env={"OMP_NUM_THREADS": "1"},
+        capture_output=True,
+        text=True,
+    )
+    return log.stdout[-2000:]
 
 
 def _children() -> float:
@@ -88,9 +102,9 @@ def _material(material: Material) -> Iterator[str]:
     yield "*SOLID SECTION, ELSET=BLADE, MATERIAL=METAL"
 
 
-def _steps(speed: float) -> Iterator[str]:
+def _steps(speed: float, frequency: str) -> Iterator[str]:
     """At a speed the nonlinear equilibrium, and modes about it with its stress and its load."""
-    modes = ["*FREQUENCY", str(COUNT), "*END STEP"]
+    modes = [frequency, str(COUNT), "*END STEP"]
     if not speed:
         yield from ("*STEP", *modes)
         return

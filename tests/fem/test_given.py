@@ -19,6 +19,7 @@ from geometry.project import SettingsError, check_settings
 from geometry.tip import cartesian
 from rom.check import check
 from rom.full_model import solve
+from rom.modes import ShiftInvert
 from rom.reconstruct import Basis
 from rom.reduce import reduce
 
@@ -123,7 +124,8 @@ def beside(folder, changes, to):
     ("file", "text", "refused_file"),
     [
         ("nodes.csv", "1,2\n", "nodes.csv"),
-        ("nodes.csv", "0.5,0,0\n", "M.mtx"),
+        ("nodes.csv", "0.5,0,0\n", "tip.csv"),
+        ("M.mtx", "%%MatrixMarket matrix coordinate real symmetric\n3 3 1\n1 1 1\n", "M.mtx"),
         ("tip.csv", "0,1,2,3,4,5\n", "tip.csv"),
         ("M.mtx", "%%MatrixMarket matrix\n", "M.mtx"),
         ("tip.csv", "1,2,3,4,5,6\n3,1,2,6,4,5\n", "tip.csv"),
@@ -263,29 +265,40 @@ def test_matrix_of_a_blade_that_is_not_clamped_is_refused(solid, tmp_path):
     assert refused(GivenError, read_matrices, given, "given", tmp_path).file.endswith("/K.npz")
 
 
-def test_matrices_of_single_precision_are_read_back(files, coarse_matrices, tmp_path):
+def test_mass_and_operator_of_single_precision_are_read_back(files, coarse_matrices, tmp_path):
     folder, keys = files
-    single = {"M": coarse_matrices.M, "K": coarse_matrices.K[0], "S": coarse_matrices.S}
+    single = {"M": coarse_matrices.M, "S": coarse_matrices.S}
     single = {f"{name}.npz": A.astype(np.float32) for name, A in single.items()}
     beside(folder, single, tmp_path)
-    keys = keys | {"M": "M.npz", "K": {0.0: "K.npz"}, "S": "S.npz", "camber": "camber.csv"}
+    keys = keys | {"M": "M.npz", "K": {0.0: "K0.npz"}, "S": "S.npz", "camber": "camber.csv"}
     fom = read_matrices(settings(keys, max_speed_rad_s=500.0), "given", tmp_path)
     fom.save(tmp_path / "matrices.h5")
     assert abs(Matrices.load(tmp_path / "matrices.h5").S - fom.S).max() == 0
 
 
-@pytest.mark.parametrize("kind", ["micrometres", "six digits"])
-def test_digits_of_other_programs_are_no_fault(kind, files, coarse_matrices, tmp_path):
-    """The largest errors of what is compared with ``RIGID``: 3e-6 and 5e-7."""
+def test_coordinates_of_micrometres_are_no_fault(files, coarse_matrices, tmp_path):
+    """The largest error of what is compared with ``SAME_PLACES``: 3e-6."""
     folder, keys = files
-    rounded = {"nodes.csv": coarse_matrices.coordinates.round(6)} if kind == "micrometres" else {}
-    beside(folder, rounded, tmp_path)
+    beside(folder, {"nodes.csv": coarse_matrices.coordinates.round(6)}, tmp_path)
     K = {0.0: "K0.npz", 325.0: "K1.npz"}
-    if kind == "six digits":
-        for name, A in {"six-M": coarse_matrices.M, "six-K": coarse_matrices.K[0]}.items():
-            mmwrite(tmp_path / f"{name}.mtx", A, symmetry="symmetric", precision=6)
-        keys, K = keys | {"M": "six-M.mtx"}, K | {0.0: "six-K.mtx"}
     read_matrices(settings(keys | {"K": K, "tip": "tip.csv"}), "given", tmp_path)
+
+
+@pytest.mark.parametrize(("digits", "error"), [(10, 1e-4), (9, 1e-3), (8, None), (7, None)])
+def test_digits_that_lose_the_bending_are_refused(digits, error, files, coarse_matrices, tmp_path):
+    """Measured in f1: 6e-5, 4e-4, and with seven digits 13 %; six of M cost nothing."""
+    folder, keys = files
+    beside(folder, {}, tmp_path)
+    mmwrite(tmp_path / "m.mtx", coarse_matrices.M, symmetry="symmetric", precision=6)
+    mmwrite(tmp_path / "k.mtx", coarse_matrices.K[0], symmetry="symmetric", precision=digits)
+    keys = keys | {"M": "m.mtx", "K": {0.0: "k.mtx"}, "tip": "tip.csv"}
+    given = settings(keys, max_speed_rad_s=500.0)
+    if error is None:
+        refused(GivenError, read_matrices, given, "given", tmp_path, match="k.mtx: .* nine digits")
+        return
+    fom = read_matrices(given, "given", tmp_path)
+    f1, expected = (ShiftInvert(of.K[0], of.M).modes(1).omega[0] for of in (fom, coarse_matrices))
+    assert f1 == pytest.approx(expected, rel=error)
 
 
 @pytest.mark.parametrize(

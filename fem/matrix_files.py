@@ -1,0 +1,181 @@
+"""Sparse matrices in files of SciPy, CalculiX, Abaqus, Nastran and Ansys.
+
+Programs write one triangle of M and K, and most of them the node and direction of each row.
+"""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.io import mmread
+from scipy.sparse import csr_matrix, diags, load_npz
+
+from geometry.given import Check, failed
+from geometry.project import UserError, about, number, read_text, require_file
+
+DIRECTIONS = 16  # more than a node has
+
+
+class GivenError(UserError):
+    """A file of given matrices that cannot be read or does not fit the others."""
+
+
+class FileMatrix(NamedTuple):
+    """A matrix, and what its rows are."""
+
+    A: csr_matrix
+    rows: NDArray[np.int64] | None = None  # (n, 2), number of node and direction from 1, if known
+
+
+def require(path: Path, *checks: Check) -> None:
+    """Refuse the file at ``path`` by the first fault whose check does not hold.
+
+    Raises
+    ------
+    GivenError
+        When there is one.
+    """
+    if faults := failed(*checks):
+        raise GivenError(faults[0], file=path)
+
+
+def read_matrix(path: Path, letter: str) -> FileMatrix:
+    """The matrix at ``path``; of several in a file that with the ``letter``, M or K.
+
+    Raises
+    ------
+    GivenError
+        When it cannot be read whole, or holds other values than finite real numbers.
+    """
+    require(
+        path,
+        (
+            path.suffix.lower() != ".sub",
+            "a superelement's rows are no displacements of nodes: give the full matrices (.full), "
+            "or reduce by one basis at all speeds (`reduced_model`)",
+        ),
+    )
+    with about(path, GivenError):
+        require_file(path, READERS)
+    try:
+        found = READERS[path.suffix.lower()](path, letter)
+    except GivenError:
+        raise
+    except Exception as error:  # readers raise various exceptions for damaged files
+        raise GivenError(
+            f"cannot be read as {path.suffix} ({error!r}): is it cut short?", file=path
+        ) from None
+    require(
+        path,
+        (
+            np.isrealobj(found.A.data) and np.isfinite(found.A.data).all(),
+            "holds values that are not finite real numbers",
+        ),
+    )
+    return found._replace(A=found.A.astype(float))
+
+
+def _npz(path: Path, letter: str) -> FileMatrix:
+    return FileMatrix(csr_matrix(load_npz(path)))
+
+
+def _mtx(path: Path, letter: str) -> FileMatrix:
+    """Matrix Market, or Abaqus's rows: node, direction, twice, and value; or row, column, value."""
+    with open(path) as file:
+        head = next((line for line in file if not line.startswith("**")), "")
+    if head.startswith("%%MatrixMarket"):
+        return FileMatrix(csr_matrix(mmread(path, spmatrix=False)))
+    *places, values = _columns(path, "," if "," in head else None)
+    if len(places) == 2:
+        return FileMatrix(_whole(csr_matrix((values, np.array(places, dtype=int) - 1))))
+    require(
+        path,
+        (
+            len(places) == 4,
+            f"{len(places) + 1} numbers a line, needs 5: write FORMAT=MATRIX INPUT",
+        ),
+    )
+    return _of_labels(np.array(places, dtype=int).T, values)
+
+
+def _calculix(path: Path, letter: str) -> FileMatrix:
+    """One triangle; the rows are named in the file .dof of the same job, as 12.3."""
+    dof = path.with_suffix(".dof")
+    with about(dof, GivenError):
+        names = read_text(dof, most=None).split()
+    i, j, values = _columns(path)
+    A = _whole(csr_matrix((values, (i.astype(int) - 1, j.astype(int) - 1))))
+    require(
+        path,
+        (
+            A.shape[0] == len(names) == len(set(names)),
+            f"{A.shape[0]} rows, {dof.name} has {len(names)}: is it of another job, or cut short?",
+        ),
+    )
+    return FileMatrix(A, np.array([name.split(".") for name in names], dtype=int))
+
+
+def _dmig(path: Path, letter: str) -> FileMatrix:
+    """The matrix of a punch file whose name begins with a letter; fields have 16 characters."""
+    entries = []
+    for line in read_text(path, most=None).splitlines():
+        first, second, third, *_ = (line[i : i + 16].strip() for i in range(8, 72, 16))
+        if line.startswith("DMIG*"):
+            name, *column = first, second, third
+        elif line.startswith("*"):
+            entries.append((name, *column, first, second, number(third)))
+    names = {name for name, *_ in entries if name.startswith(letter)}
+    require(
+        path,
+        (
+            len(names) == 1,
+            f"needs one matrix DMIG* whose name begins with {letter}, has {len(names)}",
+        ),
+    )
+    labels, values = zip(*((of[1:5], of[5]) for of in entries if of[0] in names), strict=True)
+    return _of_labels(np.array(labels, dtype=int), np.array(values))
+
+
+def _full(path: Path, letter: str) -> FileMatrix:
+    """M or K of Ansys; rows of constrained directions are zero."""
+    try:
+        from ansys.mapdl.reader import read_binary
+    except ImportError:
+        raise GivenError("needs ansys-mapdl-reader: see fem/matrices.md", file=path) from None
+    rows, K, M = read_binary(str(path)).load_km(sort=False)
+    return FileMatrix(_whole(csr_matrix({"M": M, "K": K}[letter])), np.add(rows, [0, 1]))
+
+
+READERS: dict[str, Callable[[Path, str], FileMatrix]] = {
+    ".mtx": _mtx,
+    ".npz": _npz,
+    ".sti": _calculix,
+    ".mas": _calculix,
+    ".pch": _dmig,
+    ".full": _full,
+}
+
+
+def _columns(path: Path, delimiter: str | None = None) -> NDArray[np.float64]:
+    """Columns (k, n) of numbers; the last line must have its end, else a number may lack digits."""
+    with open(path, "rb") as file:
+        file.seek(-1, 2)
+        require(path, (file.read() == b"\n", "its last line has no end: is the file cut short?"))
+    return np.loadtxt(path, delimiter=delimiter, comments="*", ndmin=2).T
+
+
+def _of_labels(labels: NDArray, values: NDArray) -> FileMatrix:
+    """A matrix by node and direction of row and column, ``labels`` (n, 4) of ``values`` (n,)."""
+    codes = DIRECTIONS * labels[:, ::2] + labels[:, 1::2]
+    rows, where = np.unique(codes, return_inverse=True)
+    A = csr_matrix((values, where.reshape(-1, 2).T), (len(rows), len(rows)))
+    return FileMatrix(_whole(A), np.column_stack(divmod(rows, DIRECTIONS)))
+
+
+def _whole(A: csr_matrix) -> csr_matrix:
+    """The matrix, of which a file may hold one triangle: no place and its mirror image."""
+    places = A.astype(bool)
+    both = places.multiply(places.T).nnz - np.count_nonzero(A.diagonal())
+    return A if both else csr_matrix(A + A.T - diags(A.diagonal()))

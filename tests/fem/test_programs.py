@@ -1,0 +1,400 @@
+"""Matrices of the coarse blade, as other programs write them beside their mesh, are read back."""
+
+import re
+import subprocess
+from pathlib import Path
+from typing import NamedTuple
+
+import calculix
+import exports
+import numpy as np
+import pytest
+import yaml
+from bricks import Bricks
+from programs import WRITERS
+from refused import refused
+from scipy.io import mmwrite
+from scipy.sparse import block_diag, csr_matrix, diags, eye_array, kron, triu
+from scipy.spatial import KDTree
+
+from ufl import TestFunction, TrialFunction, dx, inner
+
+from fem.assemble import assemble
+from fem.deck import Deck, deck_of
+from fem.given import GivenError, read_matrices
+from fem.matrix_files import read_matrix
+from fem.solid import read_solid
+from geometry.blade import METRES, Frame, MeshFile
+from geometry.file_mesh import UNITS
+from geometry.frame import rotation
+from geometry.given import GivenMatrices
+from geometry.mesh import build_mesh
+from geometry.project import ROOT, UserError, check_settings
+from geometry.tetrahedra import EDGES
+from rom.modes import ShiftInvert
+from rom.reduce import reduce
+
+needs_ccx = pytest.mark.skipif(calculix.CCX is None, reason="ccx is not here (calculix-ccx)")
+FRAMES = {
+    "mm": {},
+    "in": {"downstream": "x", "radial": "-y", "rotation": "left-handed"},
+}
+ENDS = {"root": {"group": "ROOT"}, "tip": {"group": "TIP"}}
+
+
+class Model(NamedTuple):
+    """A deck with its M and K in the axes and unit of a program."""
+
+    folder: Path
+    mesh: dict  # settings of the deck
+    M: csr_matrix
+    K: csr_matrix
+    rows: np.ndarray  # (n, 2), node and direction
+
+
+def settings(mesh, M, K, **others):
+    keys = {"M": M, "K": K if isinstance(K, dict) else {0.0: K}, "mesh_file": mesh}
+    top = {} if isinstance(K, dict) else {"max_speed_rad_s": 500.0}
+    return check_settings(
+        GivenMatrices, {"full_matrices": keys, "patches": 8} | top | others, "test"
+    )
+
+
+def frequencies(M, K, count=10):
+    return ShiftInvert(csr_matrix(K), csr_matrix(M)).modes(count).omega / (2 * np.pi)
+
+
+def model(unit, coarse_matrices, coarse_mesh, folder) -> Model:
+    """Numbers of nodes are drawn; rows stand in the order of ours."""
+    frame = check_settings(Frame, FRAMES[unit], "a frame")
+    R = rotation(frame)
+    parts = exports.parts(coarse_mesh.mesh)
+    new = np.random.default_rng(50).permutation(len(parts.points))  # number of each node, from 0
+    points = np.empty_like(parts.points)
+    points[new] = 1e-3 * parts.points @ R / METRES[unit]
+    facets = {name: new[of] for name, of in parts.facets.items()}
+    exports.write_inp(folder / "blade.inp", points, new[parts.cells], facets)
+    _, at = KDTree(1e-3 * parts.points).query(coarse_matrices.coordinates)
+    rows = np.column_stack([np.repeat(new[at] + 1, 3), np.tile([1, 2, 3], len(at))])
+    turn = kron(eye_array(len(at)), R) / np.sqrt(UNITS[unit][0] * METRES[unit])
+    M, K = (csr_matrix(turn.T @ A @ turn) for A in (coarse_matrices.M, coarse_matrices.K[0]))
+    mesh = {"file": "blade.inp", "unit": unit, "frame": FRAMES[unit]} | ENDS
+    return Model(folder, mesh, M, K, rows)
+
+
+@pytest.fixture(scope="module", params=FRAMES)
+def models(request, coarse_matrices, coarse_mesh, tmp_path_factory):
+    return model(request.param, coarse_matrices, coarse_mesh, tmp_path_factory.mktemp("model"))
+
+
+@pytest.fixture(scope="module")
+def in_mm(coarse_matrices, coarse_mesh, tmp_path_factory):
+    return model("mm", coarse_matrices, coarse_mesh, tmp_path_factory.mktemp("in-mm"))
+
+
+@pytest.mark.parametrize("program", WRITERS)
+def test_files_of_a_program_are_our_own_matrices(program, models, coarse_matrices):
+    """Whatever the numbers, axes and unit; the ten digits of DMIG cost 6e-5 of f1."""
+    files = WRITERS[program](models.folder, models.M, models.K, models.rows)
+    fom = read_matrices(settings(models.mesh, *files), "given", models.folder)
+    found, ours = frequencies(fom.M, fom.K[0]), frequencies(coarse_matrices.M, coarse_matrices.K[0])
+    np.testing.assert_allclose(found, ours, rtol=2e-4 if "DMIG" in program else 2e-7)
+    assert fom.span == pytest.approx(coarse_matrices.span, rel=1e-9)
+    np.testing.assert_allclose(fom.camber, coarse_matrices.camber, atol=1e-9)
+    theirs, own = (of.S @ fields(of.coordinates) for of in (fom, coarse_matrices))
+    np.testing.assert_allclose(theirs, own, atol=1e-10)
+
+
+def fields(x):
+    """Displacements (3 n, 12): constant, and linear in place."""
+    e = np.eye(3)
+    linear = [np.outer(x[:, i], e[j]).ravel() for i in range(3) for j in range(3)]
+    return np.column_stack([*(np.tile(e[j], len(x)) for j in range(3)), *linear])
+
+
+def test_bricks_move_their_diagonals_with_their_faces(coarse_blade, tmp_path):
+    """S of split bricks, on nodes of the file alone, is that of their tetrahedra.
+
+    For constant and linear displacements; wedges and first order as well.
+    """
+    bricks = Bricks(coarse_blade.sections, 8, 1, 4)
+    for kind, second_order in (("hexahedron", True), ("hexahedron", False), ("wedge", True)):
+        points, nodes, groups = bricks.parts(kind, second_order)
+        name = {20: "C3D20R", 8: "C3D8", 15: "C3D15"}[nodes.shape[1]]
+        exports.write_inp(tmp_path / "b.inp", points, nodes, groups, name)
+        deck = deck_of(mesh_file({"file": "b.inp", "unit": "mm"} | ENDS), tmp_path)
+        S, _ = deck.interface(8)
+        split, _ = deck._replace(weights=eye_array(len(deck.points))).interface(8)
+        assert S.shape[1] == 3 * len(deck.numbers) < split.shape[1]
+        np.testing.assert_allclose(
+            S @ fields(deck.coordinates), split @ fields(deck.points), atol=1e-12
+        )
+        e_r = (S @ fields(deck.coordinates)[:, :3]).reshape(8, 3, 3)
+        np.testing.assert_allclose(np.linalg.norm(e_r, axis=2), 1, atol=1e-3)
+
+
+def mesh_file(keys):
+    return check_settings(MeshFile, keys, "test")
+
+
+@pytest.fixture
+def of_calculix(in_mm, tmp_path):
+    """The model in a folder of its own, to be spoiled."""
+    files = WRITERS["CalculiX"](tmp_path, in_mm.M, in_mm.K, in_mm.rows)
+    (tmp_path / "blade.inp").write_text((in_mm.folder / "blade.inp").read_text())
+    return in_mm._replace(folder=tmp_path), files
+
+
+CUT = {
+    "within a number": lambda text: text[:-5],
+    "after a row": lambda text: "\n".join(text.split("\n")[:-200]) + "\n",
+    "within a row": lambda text: text[: len(text) // 2 // 28 * 28 + 7] + "\n",
+    "empty": lambda text: "",
+}
+
+
+@pytest.mark.parametrize("cut", CUT)
+@pytest.mark.parametrize("file", ["job.sti", "job.mas", "job.dof"])
+def test_file_that_is_cut_short_is_refused(cut, file, of_calculix):
+    of, files = of_calculix
+    path = of.folder / file
+    text = path.read_text()
+    if file == "job.dof":
+        text = text.rstrip("\n")
+    path.write_text(CUT[cut](text))
+    given = settings(of.mesh, *files)
+    refused(GivenError, read_matrices, given, "given", of.folder, match=r"job\..*cut short\?")
+
+
+def refuse(of, program, match, mesh=None, folder=None, **spoiled):
+    """Files of a program with some values spoiled."""
+    folder = folder or of.folder
+    files = WRITERS[program](
+        folder,
+        *(spoiled.get(name, getattr(of, name)) for name in "MK"),
+        spoiled.get("rows", of.rows),
+    )
+    given = settings(of.mesh | (mesh or {}), *files)
+    return refused(UserError, read_matrices, given, "given", folder, match=match)
+
+
+def node_of(of, node, **values):
+    """Rows with other numbers or directions at one node."""
+    rows = of.rows.copy()
+    rows[rows[:, 0] == of.rows[30, 0], 0] = node
+    return rows
+
+
+def test_rows_that_are_no_displacements_of_nodes_are_refused(of_calculix):
+    of, _ = of_calculix
+    refuse(of, "CalculiX", "node 99999, direction 1, has a row.*reference", rows=node_of(of, 99999))
+    refuse(of, "Abaqus, MATRIX INPUT", "node -7, .*Lagrange", rows=node_of(of, -7))
+    other = np.add(of.rows, [0, 1])
+    refuse(of, "Abaqus, MATRIX INPUT", "direction 4, has a row", rows=other)
+
+
+def test_constrained_nodes_off_the_root_are_refused(of_calculix):
+    """Left out, or held by a large number; those of the root may be either."""
+    of, _ = of_calculix
+    node = of.rows[30, 0]
+    kept = np.arange(len(of.rows)) != 31
+    M, K = (A[kept][:, kept] for A in (of.M, of.K))
+    refuse(of, "CalculiX", f"node {node}, direction 2, has no row", M=M, K=K, rows=of.rows[kept])
+    held = diags(np.where(kept, 0, 1e36))
+    refuse(
+        of,
+        "Abaqus, MATRIX INPUT",
+        f"1e\\+39 on the diagonal .*node {node}, direction 2",
+        K=of.K + held,
+    )
+    root = deck_of(mesh_file(of.mesh), of.folder).clamped
+    rows = np.vstack(
+        [of.rows, np.column_stack([np.repeat(root, 3), np.tile([1, 2, 3], len(root))])]
+    )
+    of_root = np.arange(len(rows)) >= len(of.rows)
+    M, K = (block(A, of_root.sum(), value) for A, value in ((of.M, 0.0), (of.K, 1e36)))
+    files = WRITERS["Abaqus, MATRIX INPUT"](of.folder, M, K, rows)
+    fom = read_matrices(settings(of.mesh, *files), "given", of.folder)
+    assert fom.M.shape == of.M.shape
+
+
+def block(A, n, value):
+    return csr_matrix(block_diag([A, value * eye_array(n)]))
+
+
+def test_other_units_order_or_mesh_are_refused(of_calculix, coarse_blade):
+    of, _ = of_calculix
+    for program in ("CalculiX", "Nastran, DMIG"):
+        refuse(of, program, "mass of .*kg/m3: .*units of M", M=1e3 * of.M, K=1e3 * of.K)  # SI
+    refuse(of, "CalculiX", "the blade is 140 m long with unit: m", mesh={"unit": "m"})
+    order = np.random.default_rng(1).permutation(len(of.rows) // 3)
+    shuffled = (3 * order[:, None] + np.arange(3)).ravel()
+    refuse(
+        of,
+        "SciPy",
+        "forces away from the clamp",
+        M=of.M[shuffled][:, shuffled],
+        K=of.K[shuffled][:, shuffled],
+    )
+    n = len(of.rows) - 3
+    shorter = {"M": of.M[:n, :n], "K": of.K[:n, :n], "rows": of.rows[:n]}
+    refuse(of, "Abaqus, COORDINATE", f"{n} rows and {n} columns, needs", **shorter)
+    deck = (of.folder / "blade.inp").read_text()
+    start, nodes, rest = deck.partition("*ELEMENT")
+    moved = [line.split(", ") for line in start.splitlines()[1:]]
+    stretched = [f"{i}, {float(x) * 1.1}, {y}, {z}" for i, x, y, z in moved]
+    (of.folder / "blade.inp").write_text("\n".join(["*NODE", *stretched, nodes + rest]))
+    refuse(of, "CalculiX", "forces away from the clamp .* order and the frame")
+
+
+def test_one_triangle_needs_its_word_in_matrix_market_alone(of_calculix):
+    of, _ = of_calculix
+    order = np.lexsort(of.rows.T[::-1])
+    M, K = (A[order][:, order] for A in (of.M, of.K))
+    mmwrite(of.folder / "M.mtx", M, symmetry="symmetric", precision=17)
+    mmwrite(of.folder / "K.mtx", triu(K), symmetry="general", precision=17)
+    given = settings(of.mesh, "M.mtx", "K.mtx")
+    refused(
+        GivenError, read_matrices, given, "given", of.folder, match="not symmetric.*`symmetric`"
+    )
+
+
+@pytest.mark.parametrize(
+    ("file", "text", "fault"),
+    [
+        ("K.sub", "", "a superelement's rows are no displacements of nodes"),
+        ("K.full", "", "cannot be read|ansys-mapdl-reader"),
+        ("K.pch", "DMIG*   MAAX\n", "begins with K, has 0"),
+        ("K.mtx", "1, 2, 3, 4\n", "4 numbers a line, needs 5"),
+        ("K.mtx", "1,1, 1,1, nan\n", "not finite real numbers"),
+        ("K.sti", "1 1 2.0\n", "K.dof: cannot be read"),
+    ],
+)
+def test_file_of_another_kind_is_refused(file, text, fault, tmp_path):
+    (tmp_path / file).write_text(text)
+    refused(GivenError, read_matrix, tmp_path / file, "K", match=fault)
+
+
+class Job(NamedTuple):
+    """A deck in m, and files that CalculiX wrote of it by speed (rad/s)."""
+
+    folder: Path
+    cells: calculix.Cells
+    K: dict[float, str]
+
+    @property
+    def mesh(self):
+        return {"file": "blade.inp", "unit": "m"} | ENDS
+
+    def read(self):
+        given = settings(self.mesh, "rest.mas", self.K)
+        return given, read_matrices(given, "given", self.folder)
+
+
+SPEEDS = {0.0: "rest", 325.0: "s325", 563.0: "s563", 650.0: "s650"}
+
+
+def run_jobs(blade, kind, points, nodes, groups, folder) -> Job:
+    exports.write_inp(folder / "blade.inp", points, nodes, groups, kind)
+    cells = calculix.Cells(kind, points, nodes, np.unique(groups["root"]))
+    for speed, name in SPEEDS.items():
+        calculix.matrices(cells, blade.material, speed, folder / name)
+    return Job(folder, cells, {speed: f"{name}.sti" for speed, name in SPEEDS.items()})
+
+
+@pytest.fixture(scope="module")
+def straight(coarse_blade, coarse_mesh, tmp_path_factory) -> Job:
+    """Ten-node tetrahedra with straight sides."""
+    parts = exports.parts(coarse_mesh.mesh)
+    points = 1e-3 * parts.points
+    points[parts.cells[:, 4:]] = points[parts.cells[:, EDGES]].mean(axis=2)
+    folder = tmp_path_factory.mktemp("straight")
+    return run_jobs(coarse_blade, "C3D10", points, parts.cells, parts.facets, folder)
+
+
+@needs_ccx
+def test_tetrahedra_of_calculix_are_ours_at_its_points(straight, coarse_blade, tmp_path):
+    """K entry by entry; M if it is integrated at the four points that CalculiX takes.
+
+    They are not exact for a mass, whose integrand is of fourth degree: with exact M frequencies
+    differ by 9e-8 in f1 to 1e-4 in the tenth on these coarse cells, and on four times finer ones by
+    4e-9 to 2e-6.
+    """
+    _, fom = straight.read()
+    own = exports.as_meshed(coarse_blade, "blade.inp", interface={"patches": 8})
+    own = own.model_copy(update={"mesh_file": mesh_file(straight.mesh)})
+    mesh = tmp_path / "blade.msh"
+    build_mesh(own, mesh, straight.folder / "blade.inp")
+    solid = read_solid(str(mesh), own.material)
+    u, v = TrialFunction(solid.V), TestFunction(solid.V)
+    at_four = dx(solid.mesh, metadata={"quadrature_degree": 2})
+    M = solid.matrix(own.material.density_kg_m3 * inner(u, v) * at_four)
+    ours = assemble(own, "own", mesh, [0.0])
+    _, at = KDTree(ours.coordinates).query(fom.coordinates)
+    order = (3 * at[:, None] + np.arange(3)).ravel()
+    for theirs, A in (fom.K[0], ours.K[0]), (fom.M, M):
+        assert abs(theirs - A[order][:, order]).max() < 1e-10 * abs(A).max()
+    found = frequencies(fom.M, fom.K[0])
+    np.testing.assert_allclose(found, frequencies(M, ours.K[0]), rtol=1e-6)
+    np.testing.assert_allclose(found, frequencies(ours.M, ours.K[0]), rtol=2e-4)
+
+
+@needs_ccx
+def test_between_its_speeds_the_reduced_model_is_calculix(straight, coarse_blade):
+    given, fom = straight.read()
+    rom, _ = reduce(fom, given.basis, "r")
+    for speed in (162.5, 450.0, 610.0):
+        theirs = calculix.frequencies(straight.cells, coarse_blade.material, speed).frequencies
+        found = rom.modes(speed)[0][:10] / (2 * np.pi)
+        np.testing.assert_allclose(found, theirs, rtol=1e-4)
+
+
+@needs_ccx
+@pytest.mark.parametrize("kind", ["C3D20R", "C3D15"])
+def test_bricks_of_calculix_keep_its_frequencies(kind, coarse_blade, tmp_path):
+    """Split for the tip alone; M and K stay those of bricks, with fewer points, and of wedges."""
+    bricks = Bricks(coarse_blade.sections, 10, 1, 20)
+    points, nodes, groups = bricks.parts({"C3D20R": "hexahedron", "C3D15": "wedge"}[kind], True)
+    job = run_jobs(coarse_blade, kind, 1e-3 * points, nodes, groups, tmp_path)
+    given, fom = job.read()
+    rom, _ = reduce(fom, given.basis.model_copy(update={"rank_tolerance": 1e-5}), "r")
+    for speed in SPEEDS:
+        theirs = calculix.frequencies(job.cells, coarse_blade.material, speed).frequencies
+        found = rom.modes(speed)[0][:10] / (2 * np.pi)
+        np.testing.assert_allclose(found, theirs, rtol=1e-6)
+
+
+def test_files_of_ansys_give_its_frequencies():
+    """The beam that the reader comes with; its pages print 1283.2, 5782.0 and 6919.4 Hz."""
+    reader = pytest.importorskip("ansys.mapdl.reader")
+    from ansys.mapdl.reader.examples import fullfile
+
+    M, K = (read_matrix(Path(fullfile), letter) for letter in "MK")
+    full = reader.read_binary(fullfile)
+    full.load_km()
+    clamped = np.unique(full.const[:, 0])
+    free = np.setdiff1d(K.rows[:, 0], clamped)
+    nothing = np.empty((0, 3))
+    deck = Deck(free, clamped, nothing, 0.0, nothing, nothing, csr_matrix((0, len(free))))
+    found = frequencies(deck.matrix(M), deck.matrix(K), 5)
+    expected = [1283.20036921, 1283.20036921, 5781.97486169, 6919.39887714, 6919.39887714]
+    np.testing.assert_allclose(found, expected, rtol=1e-9)
+
+
+PAGE = (ROOT / "fem/matrices.md").read_text()
+
+
+@needs_ccx
+def test_example_of_the_page(coarse_mesh, tmp_path):
+    """Its script on the coarse blade in mm, and its blade's file on what the script writes."""
+    parts = exports.parts(coarse_mesh.mesh)
+    exports.write_inp(tmp_path / "blade.inp", parts.points, parts.cells, parts.facets)
+    script, blade = (
+        re.search(rf"```{kind}\n(.*?)```", PAGE, re.DOTALL)[1] for kind in ("bash", "yaml")
+    )
+    subprocess.run(["bash", "-e", "-c", script], cwd=tmp_path, check=True, capture_output=True)
+    given = check_settings(GivenMatrices, yaml.safe_load(blade), "the page")
+    fom = read_matrices(given, "mine", tmp_path)
+    assert list(fom.speeds) == [0, 325, 563, 650]
+    assert frequencies(fom.M, fom.K[0])[0] == pytest.approx(259.31, rel=1e-4)  # of the coarse blade
+    assert frequencies(fom.M, fom.K[3])[0] == pytest.approx(356.24, rel=1e-4)
