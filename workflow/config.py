@@ -27,9 +27,7 @@ class Config(Settings):
 
     scenes: list[str] = Field(min_length=1, description="Names of files in workflow/scenes/")
     blocks: int = Field(ge=1, le=1000, description="Number of jobs of a sweep")
-    explore: list[str] = Field(
-        default=[], description="Scenes with a page to explore, where they run"
-    )
+    explore: list[str] = Field(default=[], description="Scenes with a page to explore")
 
 
 def read_config(

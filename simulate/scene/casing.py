@@ -50,8 +50,8 @@ class Clearance(Settings):
     )
     at: Literal["running", "rest"] = Field(
         default="running",
-        description="Where the gaps are these: at each speed of the sweep, or at rest; then each "
-        "speed has them less the static growth of the tip",
+        description="Gaps at each speed of the sweep, or at rest; then each speed has them less "
+        "the static growth of the tip",
     )
     thermal_growth: AnyThermal | None = Field(
         default=None,
@@ -102,7 +102,7 @@ class Harmonic(Settings):
         default=0,
         ge=-1e5,
         le=1e5,
-        description="Speed at which it travels around the casing, in the sense of rotation (rad/s)",
+        description="Speed of travel around the casing, in the sense of rotation (rad/s)",
     )
 
     @checked
@@ -136,7 +136,7 @@ class Casing(Settings):
     either: ClassVar = [("harmonics", "table"), ("ramp_rounds", "ramp")]
     hints: ClassVar = {
         "scale": "a factor: 127 % is 1.27",
-        "ramp_rounds": "in rounds of the blade",
+        "ramp_rounds": "in revolutions of the blade",
     }
 
     harmonics: list[Harmonic] | None = Field(
@@ -148,10 +148,13 @@ class Casing(Settings):
     )
     scale: Factor = Field(default=1.0, description="Factor on the distortion")
     ramp_rounds: float | None = Field(
-        default=None, ge=0, le=MOST_ROUNDS, description="Rounds over which the distortion grows"
+        default=None,
+        ge=0,
+        le=MOST_ROUNDS,
+        description="Revolutions over which the distortion grows",
     )
     ramp: RampTable | None = Field(
-        default=None, description="Instead of ramp_rounds: the distortion over the rounds"
+        default=None, description="Instead of ramp_rounds: the distortion over the revolutions"
     )
 
     @property

@@ -21,7 +21,7 @@ class CentralDifference(Settings):
     either: ClassVar = [("steps_per_round", "fraction_of_limit")]
 
     scheme: Literal["central-difference"] = Field(description="the paper's, Eqs. (18)-(20)")
-    steps_per_round: StepsPerRound | None = Field(default=None, description="Steps per round")
+    steps_per_round: StepsPerRound | None = Field(default=None, description="Steps per revolution")
     fraction_of_limit: float | None = Field(
         default=None, gt=0, le=1, description="Step over the stability limit with contact"
     )
@@ -34,7 +34,7 @@ class PiecewiseExact(Settings):
     scheme: Literal["piecewise-exact"] = Field(
         description="exact for a contact force constant over the step, stable for any step"
     )
-    steps_per_round: StepsPerRound = Field(description="Steps per round")
+    steps_per_round: StepsPerRound = Field(description="Steps per revolution")
     mass_scaling_hz: MassScaling = None
 
     @model_validator(mode="before")

@@ -41,18 +41,17 @@ class Liner(Settings):
         default=None,
         ge=1,
         le=10_000_000,
-        description="Density nu, rods per round; required without accuracy",
+        description="Density nu, rods per revolution; required without accuracy",
     )
     worn_through: Literal["stop", "casing"] = Field(
         default="stop",
-        description="When the tip has worn through the liner, the run stops, or goes on against "
-        "the rigid casing",
+        description="When the liner is worn through: stop, or continue on the rigid casing",
     )
 
     law_in_march: bool = Field(
         default=False,
-        description="A law of one's own is compiled into the march, in some 12 s; else one march "
-        "calls all of them, at some 1.6 times the time",
+        description="Compile a law from Python into the time integration, in some 12 s; otherwise "
+        "the integration calls it, at some 1.6 times the time",
     )
 
     @checked

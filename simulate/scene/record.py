@@ -28,31 +28,31 @@ class Record(Settings):
         default=2048,
         ge=64,
         le=1_000_000,
-        description="Samples per round, for spectrum, history and states",
+        description="Samples per revolution, for spectrum, history and states",
     )
     spectrum_rounds: int | None = Field(
         default=None,
         ge=1,
-        description="Spectrum of u_r at xi = 1/16, over the given number of last rounds",
+        description="Spectrum of u_r at xi = 1/16, over this number of last revolutions",
     )
     states_rounds: int | None = Field(
         default=None,
         ge=1,
-        description="Reduced displacements of all DoFs, over the given number of last rounds",
+        description="Reduced displacements of all DoFs, over this number of last revolutions",
     )
     wear: bool = Field(default=True, description="Worn depth of every rod at the end")
     history: History | None = Field(default=None, description="Displacement over time")
     contact_force: bool = Field(
         default=False,
-        description="Peak and mean contact force on each eighth of the chord in every round",
+        description="Peak and mean contact force on each eighth of the chord in every revolution",
     )
-    end: bool = Field(default=False, description="What the run leaves, for others to `start` from")
+    end: bool = Field(default=False, description="Final state, for other scenes to `start` from")
     motion: int | None = Field(
         default=None,
         ge=1,
         le=10,
-        description="For pictures, no observable: states of the last round, eight in each period "
-        "of this natural mode, and the range of u_r at xi = 1/16 in sixteenths of each round",
+        description="For animations: states of the last revolution, eight in each period of this "
+        "natural mode, and the range of u_r at xi = 1/16 in sixteenths of each revolution",
     )
 
     def rounds_of_u_r(self, rounds: int) -> int:

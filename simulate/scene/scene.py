@@ -20,14 +20,12 @@ class Start(Settings):
     """Start of each run from what a run of another scene left, in place of rest and no wear."""
 
     scene: str = Field(
-        pattern=r"^[a-z0-9][a-z0-9-]*$", description="Scene before, with `record.end`"
+        pattern=r"^[a-z0-9][a-z0-9-]*$", description="Scene to continue from, with `record.end`"
     )
     speed_over_f1: Positive | None = Field(
-        default=None, description="Its speed over f1(0); without it that of each run"
+        default=None, description="Its speed over f1(0); by default the speed of each run"
     )
-    liner_only: bool = Field(
-        default=False, description="The blade starts at rest, over the liner that was left"
-    )
+    liner_only: bool = Field(default=False, description="Start at rest, over the worn liner")
 
 
 AT_REST = "`clearance: {at: rest}`: the gap would jump from one speed to the next under the tip"
@@ -78,8 +76,8 @@ class Scene(SettingsFile):
         ge=0.005,  # below, the error of wear is no longer of second order in the width of rods
         le=0.1,  # above, a step would pass more than the footprint
         description="Relative error allowed in the recorded outputs; replaces integrator, "
-        "liner.rods_per_round and liner.strips, which are then chosen; costs 3 to 4 times what the "
-        "best fixed setting does",
+        "liner.rods_per_round and liner.strips, which are then chosen; costs 3 to 4 times the best "
+        "fixed setting",
     )
     damping_ratio: float = Field(ge=0, lt=1, description="xi of every mode of K(Omega)")
     clearance: Clearance = Field(description="Gaps in operation, before the casing distorts")
@@ -89,23 +87,23 @@ class Scene(SettingsFile):
     record: Record = Field(default=Record(), description="Outputs")
     peaks: Peaks | None = Field(default=None, description="Peaks around which speeds are added")
     start: Start | None = Field(
-        default=None, description="Start from another scene's end; at rest without it"
+        default=None, description="Start from the end of another scene; by default at rest"
     )
     twin: bool = Field(
         default=False,
-        description="March each speed twice, with gaps that differ by 1e-10, to tell which "
+        description="Compute each speed twice, with gaps that differ by 1e-10, to show which "
         "outputs can be predicted",
     )
     halving: bool = Field(
         default=False,
-        description="March each speed again with half the step, where that leaves a doubt with a "
-        "quarter, to bound the error of the step; a run with a bound above 10 % is `inaccurate`",
+        description="Compute each speed again with half the step, in doubt with a quarter, to "
+        "bound the error of the step; a run with a bound above 10 % is `inaccurate`",
     )
     design: str | None = Field(
         default=None,
         min_length=1,
-        description="Many runs: a CSV file beside the scene's, whose columns are keys, each row a "
-        "scene with other values of them; or a YAML file, a Sobol design",
+        description="Many runs: a CSV file beside the scene file, with keys as columns and a scene "
+        "with other values in each row; or a YAML file, a Sobol design",
     )
 
     def but(self, **changes: Any) -> Self:

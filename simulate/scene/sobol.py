@@ -25,7 +25,9 @@ class SobolError(UserError):
 class Factor(Settings):
     """A number by which values of the scene are multiplied, uniform between two bounds."""
 
-    keys: list[str] = Field(min_length=1, description="Keys of the scene that it multiplies")
+    keys: list[str] = Field(
+        min_length=1, description="Keys of the scene that the factor multiplies"
+    )
     between: Annotated[list[float], Field(min_length=2, max_length=2)] = Field(
         description="Lowest and highest factor on the values of the scene"
     )

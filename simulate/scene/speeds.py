@@ -53,7 +53,7 @@ class Speeds(Settings):
 
     in_turn: bool = Field(
         default=False,
-        description="Each run goes on from what the one before left, in the order of the list",
+        description="Each run continues from the end of the previous run, in the order of the list",
     )
 
     @checked

@@ -147,7 +147,7 @@ class RampTable(Points):
     """
 
     rounds: Annotated[list[float], ascending(" from 0", first=0)] = Field(
-        min_length=1, description="Rounds since the start, ascending, from 0"
+        min_length=1, description="Revolutions since the start, ascending, from 0"
     )
     factor: list[Annotated[float, Field(ge=0)]] = Field(
         min_length=1, description="Factor on the distortion there, >= 0, linear between them"

@@ -61,7 +61,7 @@ def anchors(text):
         "| `liner.law.E` | `elastic`, `plastic`, `table`: Young's modulus (in unit_Pa) "
         "| > 0, <= 1000000000.0 | required |",
         "| `casing.harmonics[].order` | Nodal diameters | >= 0, <= 200 | required |",
-        "| `record.samples_per_round` | Samples per round, for spectrum, history and states "
+        "| `record.samples_per_round` | Samples per revolution, for spectrum, history and states "
         "| >= 64, <= 1000000 | `2048` |",
     ],
 )

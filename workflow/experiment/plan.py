@@ -52,12 +52,12 @@ class Group(Settings):
     """Rows that the same scenes have."""
 
     name: str = Field(default="", description="Column `group` of the table")
-    of: Any = Field(default=(), description="Labels of its scenes; all where none is given")
+    of: Any = Field(default=(), description="Labels of its scenes; by default all")
     rows: Rows = Field(default={}, description="Changes by the name of their row")
     each: list[str] = Field(
-        default=[], description="In place of rows: `lists` of them, every combination is a row"
+        default=[], description="Instead of rows: names of `lists`; every combination is a row"
     )
-    against: str | None = Field(default=None, description="Row with which they are compared")
+    against: str | None = Field(default=None, description="Row to compare the others with")
 
     def combined(self, at: Keys, lists: Mapping[str, Rows]) -> Iterator[tuple[list[Keys], list]]:
         """Places, in a file that has the group ``at`` one, and changes of each row."""
@@ -76,7 +76,7 @@ class Picture(Settings):
     line: str | None = Field(default=None, description="Column; a curve for each of its values")
     panel: str = Field(default="", description="Column; a panel for each of its values")
     labels: dict[str, str] = Field(
-        default={}, description="What is written for a column, with its unit, or for a value"
+        default={}, description="Text for a column, with its unit, or for a value"
     )
     log: Literal["", "x", "y", "xy", "value"] = Field(
         default="", description="On logarithmic scales"
@@ -96,8 +96,8 @@ class Experiment(SettingsFile, Group):
         min_length=1,
         description="Scenes by label: the name of a scene file, or its `base` and changes of it",
     )
-    lists: dict[str, Rows] = Field(default={}, description="Of rows, of which `each` combines some")
-    groups: list[Group] = Field(default=[], description="In place of rows and each")
+    lists: dict[str, Rows] = Field(default={}, description="Lists of rows, for `each`")
+    groups: list[Group] = Field(default=[], description="Instead of rows and each")
     numbers: str | dict[str, str] = Field(
         default="peaks",
         description="Function of a row: one of workflow/experiment/numbers.py, or module:function "
@@ -108,9 +108,9 @@ class Experiment(SettingsFile, Group):
     )
     marched: bool = Field(
         default=True,
-        description="Whether the function takes runs or the reduced model: without, none are made",
+        description="Whether the function takes runs or the reduced model; if not, none are made",
     )
-    picture: Picture | None = Field(default=None, description="What is drawn of its table")
+    picture: Picture | None = Field(default=None, description="Picture of the table")
 
     @field_validator("of", mode="before")
     @classmethod
