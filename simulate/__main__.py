@@ -43,7 +43,7 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument("--row", type=int, help="run one row of the scene's design as a sweep")
     parser.add_argument(
         "--start",
-        help="sweep that the scene's `start` goes on from, run with `record: {end: true}`",
+        help="sweep to continue from, of the scene in `start`, run with `record: {end: true}`",
     )
     options = parser.parse_args(arguments)
     try:

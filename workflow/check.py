@@ -168,7 +168,7 @@ def _model(of: Subject, changed: Neighbour) -> Rom:
         raise SettingsError("basis paper: its interface has points, which stay")
     if of.blade.mesh is None and changed.remeshed:
         raise SettingsError(
-            "a finer mesh is one of your own: give it as another blade", key="mesh_file"
+            "the mesh is a file: give a finer one as another blade", key="mesh_file"
         )
     blade, source = changed.blade(of.blade), of.blade.file
     name, source = of.scene.blade, source and Path("workflow/blades", source)
@@ -201,7 +201,7 @@ def table(of: Subject, found: Mapping[str, list[Numbers] | str]) -> str:
 
 def _where(of: Subject, peak: Peak) -> str:
     rpm = f"{RPM_PER_HZ * of.rom.f1 * peak.Omega_c:.0f} rpm"
-    return f"k = {peak.k}, {rpm}" if peak.k else rpm
+    return f"EO {peak.k}, {rpm}" if peak.k else rpm
 
 
 def _cells(columns: Sequence[Column], own: Numbers, result: Numbers | str) -> list[str]:

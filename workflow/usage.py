@@ -46,7 +46,7 @@ def read_usage(log: str | Path) -> dict[str, float]:
     found = list(USED.finditer(Path(log).read_text()))
     if not found:
         raise UsageError(
-            f"{log}: does not say what its job used, as an older version wrote it: delete it, and "
-            "the job runs again"
+            f"{log}: holds no time and memory of its job (older version): delete it, and the job "
+            "runs again"
         )
     return {name: float(value) for name, value in found[-1].groupdict().items()}

@@ -26,17 +26,17 @@ type Numbers = dict[str, float]
 
 NUMBERS = {  # of a run: unit, meaning
     "amplitude": ("m", "amplitude of u_r at xi = 1/16: along an engine order, or largest"),
-    "displacement": ("m", "largest |u_r| at xi = 1/16 of all rounds"),
+    "displacement": ("m", "largest |u_r| at xi = 1/16 of all revolutions"),
     "wear": ("m", "deepest wear of the leading eighth of the chord (its mean)"),
     "wear_mean": ("m", "wear there, mean around the casing"),
     "wear_anywhere": ("m", "deepest wear of all rods"),
     "lobes": ("1", "worn lobes of the leading eighth"),
     "worn_volume": ("m3", "volume worn off the liner"),
-    "opening": ("m", "mean opening of the clearance by wear"),
+    "opening": ("m", "mean worn depth, over the area that the tip sweeps"),
     "force_peak": ("N", "largest t_N on an eighth of the chord"),
-    "force_mean": ("N", "t_N on the chord, mean over the rounds"),
-    "force_tangential_mean": ("N", "t_T on the chord, mean over the rounds"),
-    "torque": ("N m", "torque on the rotor, mean over the rounds"),
+    "force_mean": ("N", "t_N on the chord, mean over the revolutions"),
+    "force_tangential_mean": ("N", "t_T on the chord, mean over the revolutions"),
+    "torque": ("N m", "torque on the rotor, mean over the revolutions"),
 }
 
 

@@ -210,8 +210,8 @@ def _steps_per_round(integrator: Any, samples: int, Omega: float, limit: float) 
     steps = given or _multiple(round_time / (integrator.fraction_of_limit * limit), samples)
     if steps > MAX_STEPS:
         raise SceneError(
-            f"{steps:.3g} steps per round at {Omega:.6g} rad/s; allowed up to {MAX_STEPS:.0e}: "
-            "take scheme: piecewise-exact, or raise the speed",
+            f"{steps:.3g} steps per revolution at {Omega:.6g} rad/s; allowed up to "
+            f"{MAX_STEPS:.0e}: take scheme: piecewise-exact, or raise the speed",
             key="integrator",
         )
     return int(steps)
@@ -307,7 +307,7 @@ def _check_start(casing: Casing, strips: Strips) -> None:
     deepest = _deepest(strips.d, strips.rods_covered, strips.beside, MARGIN)
     d = deepest[strips.first.astype(int) % len(deepest)]  # a remainder by nu may be nu
     if (share * d - strips.g0).max() > strips.rigid_depth:
-        ramp = (f"ramp.factor: {share:g}", "0 at round 0")
+        ramp = (f"ramp.factor: {share:g}", "0 at revolution 0")
         key, least = ramp if casing.ramp else ("ramp_rounds: 0", "above 0")
         raise SceneError(
             f"the rigid casing would overlap the blade at the start; allowed {least}",

@@ -117,7 +117,7 @@ def why_no_contact(scene: Scene, strips: Strips, eps_p: NDArray[np.float64], rou
         ),
         (
             share * inward <= gap,
-            f"casing.{key}: does not bring it in far enough within the {rounds} rounds: the "
+            f"casing.{key}: the casing does not reach the tip within the {rounds} revolutions: the "
             f"distortion has grown to {MICRO * share * inward:.4g} um of "
             f"{MICRO * inward:.4g} um; {known}",
         ),
@@ -127,11 +127,11 @@ def why_no_contact(scene: Scene, strips: Strips, eps_p: NDArray[np.float64], rou
         ),
         (
             scene.casing.travelling,
-            f"casing.harmonics: those that travel did not add up to the gap; {known}",
+            f"casing.harmonics: the travelling harmonics did not add up to the gap; {known}",
         ),
         (
             True,
-            "integrator: the tip passes between the steps over what it would touch: shorten them",
+            "integrator: the tip passes over the liner between two steps: shorten the step",
         ),
     )
     return next(reason for holds, reason in reasons if holds)

@@ -194,7 +194,7 @@ class Scene(SettingsFile):
         for key in ("accuracy", "twin", "halving"):
             if getattr(self, key) and not self.record.observables:
                 raise SettingsError(
-                    "is about what is recorded: set record.wear or another of record", key=key
+                    "applies to recorded outputs: set record.wear or another of record", key=key
                 )
 
     @checked

@@ -34,7 +34,7 @@ def before(scene: Scene, rom: Rom, runs: xr.Dataset | None) -> Before:
     """
     if scene.start is None:
         if runs is not None:
-            raise SceneError("missing: give the scene that the runs go on from", key="start")
+            raise SceneError("missing: give the scene to continue from", key="start")
         return _at_rest
     if runs is None:
         raise SceneError(
@@ -102,8 +102,8 @@ def _run_at(runs: xr.Dataset, speed_over_f1: float, name: str) -> xr.Dataset:
     run = runs.isel(speed_over_f1=index)
     if run["status"].item() not in WITH_RESULT:
         raise SceneError(
-            f"its run at {speed_over_f1:.6g} f1(0) ended {run['status'].item()}: nothing can go "
-            "on from there",
+            f"its run at {speed_over_f1:.6g} f1(0) ended {run['status'].item()}: no run can "
+            "continue from there",
             key="start.scene",
             value=name,
         )

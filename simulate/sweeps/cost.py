@@ -65,7 +65,8 @@ class Cost:
         if self.memory > MUCH * (memory or machine_memory()):
             said.append(
                 f"{WARNING}that is more than {MUCH:.0%} of this machine's memory: lower the number "
-                "of speeds, liner.rods_per_round, record.samples_per_round or the rounds recorded"
+                "of speeds, liner.rods_per_round, record.samples_per_round or the "
+                "recorded revolutions"
             )
         return said
 

@@ -88,7 +88,7 @@ def at_speeds(
     ]
     for case in cases[:1]:
         if (seconds := make_kernel(scene, case.setup)) > LONG:
-            report(f"march compiled for this scheme and law: {seconds:.1f} s")
+            report(f"time integration compiled for this scheme and law: {seconds:.1f} s")
     runs, last, begun = [], None, perf_counter()
     for done, case in enumerate(cases, 1):
         run = march_one(replace(case, left=last or case.left), choice)

@@ -126,7 +126,7 @@ def _lobes(runs: xr.Dataset, index: int) -> int | None:
 
 def line(peak: Peak) -> str:
     """Where the peak is, and the verdict on it."""
-    of = f"k = {peak.k}" if peak.k else "no peak"
+    of = f"EO {peak.k}" if peak.k else "no peak"
     return f"{of} at {peak.Omega_c:.4f} f1(0), {peak.verdict or peak.status}"
 
 

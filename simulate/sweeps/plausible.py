@@ -58,7 +58,7 @@ def doubts_of_runs(runs: xr.Dataset) -> dict[str, str]:
         "liner.law.curve": (
             f"liner.law.curve: at {int(beyond.sum())} of {beyond.size} speeds rods are worn to a "
             f"plastic strain of up to {float(runs['curve_share'].max()):.3g} times that at the end "
-            "of the curve, beyond which the law goes on with its last slope: measure further"
+            "of the curve, beyond which the law continues with its last slope: measure further"
         )
     }
 
@@ -112,8 +112,8 @@ def _of_casing(casing: Casing, gap: float, rounds: float) -> list[Doubt]:
         (
             ramp > rounds,
             "casing.ramp_rounds",
-            f"casing.ramp_rounds: {ramp:g}: longer than the {rounds:g} rounds: the casing never "
-            "distorts as far as given",
+            f"casing.ramp_rounds: {ramp:g}: longer than the {rounds:g} revolutions: the casing "
+            "never distorts as far as given",
         ),
     ]
 

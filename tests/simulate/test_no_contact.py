@@ -33,7 +33,7 @@ def record_end(**changes):
             # a(2 of 20 rounds) = 0.028 of two gaps
             {"casing__ramp_rounds": 20},
             [
-                "casing.ramp_rounds: does not bring it in far enough within the 2 rounds",
+                "casing.ramp_rounds: the casing does not reach the tip within the 2 revolutions",
                 "1.176 um of 42 um",
             ],
         ),
@@ -75,7 +75,7 @@ def test_a_run_that_goes_on_touches_when_the_casing_comes(coarse_rom):
     case = record_end(rounds=1, casing__ramp_rounds=4)
     first = sweep(case, coarse_rom)
     then = sweep(case.but(rounds=3, start={"scene": "before"}), coarse_rom, start=first)
-    assert first.status.item() == "no-contact" and "the 1 rounds" in first.reason.item()
+    assert first.status.item() == "no-contact" and "the 1 revolutions" in first.reason.item()
     assert then.status.item() == "ok" and then.wear.max() > 0
 
 

@@ -42,7 +42,7 @@ IN_RADIANS = {"theta_deg": [0.0, 3.14, 6.28], "depth_m": [0.0, 5e-5, 0.0]}
             "casing.table",
             ["ends at 6.28: degrees, not radians?"],
         ),
-        ({"casing__ramp_rounds": 3}, "casing.ramp_rounds", ["3: longer than the 2 rounds"]),
+        ({"casing__ramp_rounds": 3}, "casing.ramp_rounds", ["3: longer than the 2 revolutions"]),
         ({"liner__footprint_m": 0.2}, "liner.footprint_m", ["longer than the chord", "mm or cm?"]),
         (
             {"contact": {"profile": {"tilt": 0.5}}},

@@ -114,7 +114,7 @@ def test_errors_of_the_packages_are_for_users(module):
     ("signal", "words"),
     [
         ("SIGSEGV", "a compiled library crashed on b.step, workflow/blades/b.yaml: check or make"),
-        ("SIGKILL", "killed while it read b.step, workflow/blades/b.yaml, perhaps for want of mem"),
+        ("SIGKILL", "killed while it read b.step, workflow/blades/b.yaml, perhaps out of memory"),
     ],
 )
 def test_a_job_that_ends_without_a_word_has_a_sentence(job, tmp_path, signal, words):

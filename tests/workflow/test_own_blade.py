@@ -112,7 +112,7 @@ def test_the_table_of_a_check_has_units_of_engines_and_changes_in_percent():
     }
     rows = check.table(mine, found).splitlines()[2:]
     own, *changed, refusal = [[cell.strip() for cell in row[1:-1].split("|")] for row in rows]
-    assert own == ["k = 4, 4200 rpm", "as it is", "40", "0"]
+    assert own == ["EO 4, 4200 rpm", "as it is", "40", "0"]
     assert [row[2:] for row in changed] == [["+150%", "-"], ["-0%", "-"], ["no result"] * 2]
     assert refusal[1:3] == ["finer", "interface.patches: too many"]
 

@@ -37,7 +37,7 @@ WATCH = """
 read -r ended && exit
 if grep -q -e 'Fatal Python error' -e 'Caught signal number 11' "$2"
 then echo "$1: a compiled library crashed on $3: check or make anew what it reads; log: $2"
-else echo "$1: killed while it read $3, perhaps for want of memory; log: $2"
+else echo "$1: killed while it read $3, perhaps out of memory; log: $2"
 fi >&2
 """
 
