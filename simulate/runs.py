@@ -1,11 +1,13 @@
 """Sweeps and single runs from Python: a sweep with its reduced model, one march, the peaks."""
 
+from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Self
 
 import xarray as xr
 
+from geometry.blade import RPM
 from rom.model import Rom
 from simulate.marching import Outcome, check_scene
 from simulate.scene import Scene
@@ -32,6 +34,22 @@ class Runs:
             known = ", ".join(map(str, self.dataset.variables))
             raise AttributeError(f"{name}: no variable of the sweep; it has {known}")
         return self.dataset[name]
+
+    def __repr__(self) -> str:
+        """Blade, speeds, how the runs ended, and the peaks, a line each."""
+        speeds, ends = RPM * self.speed.values, Counter(self.status.values.tolist())
+        return "\n".join(
+            [
+                f"Runs of blade {self.dataset.attrs['blade']}: {len(speeds)} speeds, "
+                f"{speeds.min():.0f} to {speeds.max():.0f} rpm",
+                ", ".join(f"{status}: {count}" for status, count in ends.items()),
+                *(
+                    f"EO {k}: peak at {speeds[of.index]:.0f} rpm, {of.over_crossing:.3f} times the "
+                    f"linear crossing, {of.amplitude:.3g} gaps"
+                    for k, of in self.peaks().items()
+                ),
+            ]
+        )
 
     @property
     def scene(self) -> Scene:

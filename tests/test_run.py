@@ -115,6 +115,20 @@ def test_word_after_config_that_is_no_value_is_refused(machine, word):
     assert machine.times_made() == 0
 
 
+@pytest.mark.parametrize("name", ["my blades", "a&b", "it's", "(1)"])
+def test_a_path_that_a_shell_would_take_apart_is_refused(machine, name):
+    machine.root = machine.root.rename(machine.root.with_name(name))
+    result = machine.run("snakemake", "-n")
+    (line,) = result.stderr.splitlines()
+    assert result.returncode == 2 and f"{name}'" in line and "move the folder" in line
+    assert machine.times_made() == 0
+
+
+def test_a_path_with_letters_of_any_language_runs(machine):
+    machine.root = machine.root.rename(machine.root.with_name("Schaufel-Größe_2.1"))
+    assert machine.run("true").returncode == 0
+
+
 def test_targets_beside_config_are_none_of_its_values(machine):
     machine.command("snakemake", 'echo "$@"')
     for words in (["sweeps", "--config", "blocks=2"], ["--config", "blocks=2", "-n", "sweeps"]):

@@ -5,6 +5,7 @@ import pytest
 import xarray as xr
 from scenes import scene
 
+from simulate import Runs
 from simulate.sweeps.peak import crossing, crossing_of, peak_of, peaks_of
 
 
@@ -90,3 +91,18 @@ def test_a_failed_run_hides_no_peak(coarse_rom):
     failed = runs.where(runs["speed_over_f1"] != SPEEDS[200])
     assert peak_of(failed, coarse_rom, 4).Omega_c == pytest.approx(0.34)
     assert peak_of(runs.where(runs["speed_over_f1"] < 0), coarse_rom, 4) is None
+
+
+def test_runs_are_printed_in_a_few_lines(coarse_rom):
+    """Speeds, how they ended, and the peaks; not the arrays."""
+    runs = responding(coarse_rom, k4=(0.34, 2.0), k6=(0.19, 0.5))
+    status = np.where(SPEEDS < 0.11, "diverged", "ok")
+    rad_s = 2 * np.pi * coarse_rom.f1 * SPEEDS
+    made = runs.assign(status=("speed_over_f1", status), speed=("speed_over_f1", rad_s))
+    heading, ends, *peaks = str(Runs(made.assign_attrs(blade="coarse"), coarse_rom)).splitlines()
+    rpm = 60 * coarse_rom.f1
+    assert heading == (f"Runs of blade coarse: 301 speeds, {0.1 * rpm:.0f} to {0.4 * rpm:.0f} rpm")
+    assert ends == "diverged: 10, ok: 291"
+    four, six = peaks
+    assert four.startswith(f"EO 4: peak at {0.34 * rpm:.0f} rpm, ") and four.endswith(" 2 gaps")
+    assert six.startswith("EO 6: ")
