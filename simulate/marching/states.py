@@ -6,6 +6,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from geometry.project import UserError
 from simulate.marching.status import WITH_RESULT
 
 PER_PERIOD = 8  # least states in a period of the highest mode that pictures show
@@ -39,14 +40,14 @@ def largest_state(sweep: xr.Dataset) -> tuple[dict[str, Any], NDArray[np.float64
 
     Raises
     ------
-    ValueError
+    geometry.project.errors.UserError
         When the sweep holds no states, or no run with a result.
     """
     if "states" not in sweep:
-        raise ValueError("the sweep holds no states: set record.states_rounds in its scene")
+        raise UserError("the sweep holds no states: set record.states_rounds in its scene")
     runs = sweep.isel(speed_over_f1=np.flatnonzero(sweep["status"].isin(WITH_RESULT)))
     if runs.sizes["speed_over_f1"] == 0:
-        raise ValueError("no run of the sweep ended ok: there is no state to show")
+        raise UserError("no run of the sweep ended ok: there is no state to show")
     u_r = runs["states"].values @ runs["P"].values.T
     gap = runs["gap"].values  # of the strips, or of each speed's strips
     beyond = u_r - (gap if gap.ndim == 1 else gap[:, None])

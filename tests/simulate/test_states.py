@@ -7,6 +7,7 @@ from refused import refused
 from runs import swept
 from scenes import over_strips, scene
 
+from geometry.project import UserError
 from simulate.marching import largest_state
 
 RECORD = {
@@ -61,7 +62,7 @@ def test_states_of_a_run_that_ends_early_are_missing(coarse_rom):
     )
     assert list(ended.status.values) == ["liner-exhausted"] and np.isnan(ended["states"]).all()
     for runs in (ended, made_up().drop_vars("states")):
-        refused(ValueError, largest_state, runs)
+        refused(UserError, largest_state, runs)
 
 
 def made_up():

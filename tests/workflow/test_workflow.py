@@ -5,6 +5,7 @@ import shutil
 import signal
 import subprocess
 import time
+from zipfile import ZipFile
 
 import meshio
 import numpy as np
@@ -62,6 +63,18 @@ def test_the_summary_has_every_scene_and_is_the_last_that_is_said(project):
     (project.folder / "results/summary.json").unlink()
     said = project.run()
     assert "Summary: results/summary.md" in said[said.index("paper-e1: blade reference") :]
+
+
+@pytest.mark.slow
+def test_the_report_has_the_pages_to_explore_as_files(project):
+    """Browsers block a page of over 2 MB within a page."""
+    (archive,) = re.findall(r"--report (\S+)", (ROOT / "workflow/README.md").read_text())
+    project.run("--report", archive)
+    with ZipFile(project.folder / archive) as report:
+        names = [name for name in report.namelist() if name.endswith("/explore.html")]
+        pages = {report.read(name) for name in names}
+    for scene in ("paper-e1", "paper-e10"):
+        assert (project.folder / BLADE / scene / "explore.html").read_bytes() in pages
 
 
 @pytest.mark.slow
@@ -351,6 +364,25 @@ def test_a_file_of_geometry_that_is_missing_is_refused_and_one_elsewhere_is_not(
     assert "Traceback" not in output and "MissingInput" not in output
     name_file(project, shutil.copy(ROOT / "workflow/blades/rotor37-sections.csv", tmp_path))
     assert project.planned("mesh")["build_mesh"] == 1
+
+
+@pytest.mark.slow
+def test_what_cannot_be_made_is_refused_in_a_sentence_before_any_job(tmp_path):
+    """States that are not recorded; a Snakefile that is started from elsewhere."""
+    (tmp_path / "project").mkdir()
+    project = make_project(tmp_path / "project")
+    elsewhere = Project(tmp_path)
+    sentences = {
+        f"{E1}: record.states_rounds: missing; ": project.run(
+            f"{BLADE}/paper-e1/peak.vtu", expect=1
+        ),
+        f"{tmp_path}: no workflow/config.yaml; start in the folder of a project": elsewhere.run(
+            "-s", str(project.folder / "Snakefile"), expect=1
+        ),
+    }
+    for sentence, said in sentences.items():
+        assert sentence in said and "Traceback" not in said and "Exception" not in said
+    assert not (project.folder / "results").exists()
 
 
 @pytest.mark.slow

@@ -27,7 +27,22 @@ def without_sources(record):
     return True
 
 
-logging.getLogger("snakemake.logging").addFilter(without_sources)
+def without_traceback(record):
+    """Of an input function that refuses what was asked for, leave the sentence alone."""
+    found = re.search(r"^InputFunctionException.*\n +WorkflowError:\n +(.*)", str(record.msg), re.DOTALL)
+    if found:
+        record.msg = found[1].partition("\nWildcards:")[0]
+    return True
+
+
+for of_messages in (without_sources, without_traceback):
+    logging.getLogger("snakemake.logging").addFilter(of_messages)
+
+if not os.path.isfile("workflow/config.yaml"):
+    raise WorkflowError(
+        f"{os.getcwd()}: no workflow/config.yaml; start in the folder of a project, as ./run does, or "
+        f"add --directory {ROOT}"
+    )
 
 
 def read_or_fail(read, *arguments):
@@ -344,6 +359,16 @@ def sweep_before(wildcards):
     """The sweep of the scene that a scene starts from."""
     scene = SCENES[wildcards.scene]
     return f"results/{scene.blade}/{scene.start.scene}/sweep.nc" if scene.start else []
+
+
+def sweep_with_states(wildcards):
+    """The sweep of a scene that records states."""
+    if not SCENES[wildcards.scene].record.states_rounds:
+        raise WorkflowError(
+            f"{scene_file(wildcards.scene)}: record.states_rounds: missing; peak.vtu shows one of the "
+            f"states: `record: {{states_rounds: 2}}` keeps them"
+        )
+    return f"results/{wildcards.blade}/{wildcards.scene}/sweep.nc"
 
 
 def settings_of_scene(wildcards):

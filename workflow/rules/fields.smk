@@ -3,7 +3,7 @@ rule peak:
         code=code_of("workflow.jobs.peak"),
         mesh="results/{blade}/blade.msh",
         basis=basis_of_scene,
-        sweep="results/{blade}/{scene}/sweep.nc",
+        sweep=sweep_with_states,
     output:
         vtu="results/{blade}/{scene}/peak.vtu",
         json="results/{blade}/{scene}/peak.json",
