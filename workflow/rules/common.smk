@@ -29,7 +29,9 @@ def without_sources(record):
 
 def without_traceback(record):
     """Of an input function that refuses what was asked for, leave the sentence alone."""
-    found = re.search(r"^InputFunctionException.*\n +WorkflowError:\n +(.*)", str(record.msg), re.DOTALL)
+    found = re.search(
+        r"^InputFunctionException.*\n +WorkflowError:\n +(.*)", str(record.msg), re.DOTALL
+    )
     if found:
         record.msg = found[1].partition("\nWildcards:")[0]
     return True
