@@ -17,6 +17,7 @@ from pydantic import BaseModel
 from geometry.blade import Blade
 from geometry.given import read_blade
 from geometry.project import (
+    MeshError,
     SettingsError,
     UserError,
     check_settings,
@@ -127,9 +128,22 @@ def main(arguments: list[str], here: Path = Path()) -> None:
     """Run the command line."""
     if not 2 <= len(arguments) <= 3 or arguments[0] not in FOLDERS:
         raise UserError(__doc__)
+    found = _contents(here / arguments[2]) if arguments[0] == "blade" and arguments[2:] else []
     path = new(*arguments, here=here)
+    for line in found:
+        print(f"{arguments[2]}: {line}")
     first = "set the lines marked with <--, then: " if "<--" in path.read_text() else ""
     print(f"{path}: {first}{_next(*arguments)}")
+
+
+def _contents(file: Path) -> list[str]:
+    """Lines on the file of a blade; nothing of one that is not there, which ``new`` refuses."""
+    from geometry.contents import contents  # slow imports, which other kinds do without
+
+    try:
+        return contents(file) if file.is_file() else []
+    except MeshError as error:
+        raise error.within(file) from None
 
 
 def _next(kind: str, name: str, about: str = "reference") -> str:

@@ -215,3 +215,36 @@ def test_a_scene_without_a_result_is_not_checked(project, capsys):
     assert check.main(["rub"]) == 2
     assert "./run snakemake results/mine/rub/sweep.nc" in capsys.readouterr().err
     assert check.main(["none"]) == 2
+
+
+def test_new_says_what_a_mesh_holds_in_its_own_axes(project, capsys, coarse_mesh):
+    points, *others = parts(coarse_mesh.mesh)  # mm
+    turned = points[:, [1, 2, 0]] * [1, 1, -1]
+    write_inp(project / "a.inp", turned, *others)
+    capsys.readouterr()  # of the reader of the mesh
+    assert new.main(["blade", "mine", "a.inp"], project) == 0
+    cells, box, axes, groups, _ = capsys.readouterr().out.splitlines()
+    assert cells.startswith("a.inp: ") and f" on {len(points)} nodes, of second order" in cells
+    z = turned[:, 2]
+    assert box.endswith(f", z {z.min():.5g} to {z.max():.5g}")
+    assert "radial -z (assumed" in axes and axes.endswith("the engine's x or y")
+    assert re.search(r"groups: NALL .*, ROOT \(\d+ nodes\), TIP \(\d+ nodes\)", groups)
+
+
+def test_new_says_the_unit_and_the_box_of_a_step_file(project, capsys, coarse_blade, coarse_mesh):
+    export(project, coarse_blade, coarse_mesh)
+    capsys.readouterr()  # of the CAD library
+    assert new.main(["blade", "mine", "blade.step"], project) == 0
+    faces, box, axes, groups, _ = capsys.readouterr().out.splitlines()
+    tip = 1e3 * coarse_blade.sections.tip_radius
+    assert faces == "blade.step: unit mm, 6 faces"
+    # of corners: within the sagitta of the tip's end
+    assert float(re.search(r": x \S+ to (\S+),", box)[1]) == pytest.approx(tip, rel=1e-3)
+    assert "radial x (assumed" in axes and groups == "blade.step: groups: none"
+
+
+def test_a_file_that_cannot_be_read_makes_no_new_blade(project, capsys):
+    (project / "a.inp").write_text("*NODE\n1, 0, 0\n")
+    assert new.main(["blade", "mine", "a.inp"], project) == 2
+    assert capsys.readouterr().err.startswith(f"{project / 'a.inp'}: ")
+    assert not (project / "workflow/blades/mine.yaml").exists()
