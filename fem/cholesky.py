@@ -2,9 +2,7 @@
 
 from typing import Self
 
-import dolfinx_solver  # noqa: F401  orders MPI ahead of the compiled bindings
-
-from petsc4py import PETSc
+from fem.petsc import PETSc
 
 import numpy as np
 from numpy.typing import NDArray

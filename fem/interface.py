@@ -11,7 +11,7 @@ on the coefficients, the dual traction, with equal virtual work. For a point, S 
 functions at its place instead.
 """
 
-import dolfinx_solver  # noqa: F401  orders MPI ahead of the compiled bindings
+from fem.petsc import MPI  # noqa: F401  ahead of DOLFINx
 
 import numpy as np
 from numpy.typing import NDArray

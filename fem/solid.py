@@ -2,10 +2,7 @@
 
 from dataclasses import dataclass
 
-import dolfinx_solver  # noqa: F401  orders MPI ahead of the compiled bindings
-
-from mpi4py import MPI
-from petsc4py import PETSc
+from fem.petsc import MPI, PETSc
 
 import gmsh
 import numpy as np

@@ -3,10 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
-import dolfinx_solver  # noqa: F401  orders MPI ahead of the compiled bindings
-
-from petsc4py import PETSc
-from slepc4py import SLEPc
+from fem.petsc import PETSc, SLEPc
 
 import numpy as np
 from numpy.typing import NDArray

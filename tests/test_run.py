@@ -16,18 +16,19 @@ ROOT = Path(__file__).parents[1]
 SCRIPT = (ROOT / "run").read_text()
 LOCK = (ROOT / "requirements.lock").read_text()
 PYTHON = Path(sys.executable).resolve()
-TOOLS = ["bash", "cat", "cmp", "dirname", "env", "flock", "ln", "mkdir", "readlink", "rm", "sh"]
-TOOLS += ["sleep", "true"]
+TOOLS = ["awk", "bash", "cat", "cmp", "dirname", "env", "flock", "ln", "mkdir", "readlink", "rm"]
+TOOLS += ["sh", "sleep", "true"]
 UV = """
 case $1 in
     --version) echo "uv VERSION" ;;
     venv)
+        echo "$@" >"$HOME/venv"
         for env; do :; done
         rm -rf "$env"
         mkdir -p "$env/bin"
         ln -s "$HOME/python" "$env/bin/python"
         sleep 0.1 ;;
-    pip) echo made >>"$HOME/log"; [ ! -e "$HOME/broken" ] ;;
+    pip) cat >"$HOME/installed"; echo made >>"$HOME/log"; [ ! -e "$HOME/broken" ] ;;
 esac
 """.replace("VERSION", re.search(r"^uv_version=(.+)$", SCRIPT, re.MULTILINE)[1])
 
@@ -39,8 +40,9 @@ class Machine:
         self.root, self.bin, self.home = folder / "tiprub", folder / "bin", folder / "home"
         for path in (self.root / ".venv-uv/bin", self.bin, self.home):
             path.mkdir(parents=True)
-        for name in ("run", "requirements.lock"):
-            shutil.copy(ROOT / name, self.root)
+        (self.root / "fem").mkdir()
+        for name in ("run", "requirements.lock", "fem/petsc.py"):
+            shutil.copy(ROOT / name, self.root / name)
         for name in TOOLS:
             (self.bin / name).symlink_to(shutil.which(name))
         self.command("id", "echo 1000")
@@ -79,9 +81,9 @@ class Machine:
             out, err = process.communicate(timeout=30)
         return subprocess.CompletedProcess(command, process.returncode, out, err)
 
-    def refusal(self) -> str:
+    def refusal(self, **variables: str) -> str:
         """The error message, one sentence, of a call that makes no environment."""
-        result = self.run("true")
+        result = self.run("true", **variables)
         assert result.returncode == 1
         assert not (self.root / ".venv").exists()
         (line,) = result.stderr.splitlines()
@@ -100,7 +102,7 @@ def machine(tmp_path):
 def test_usage(machine):
     result = machine.run()
     assert result.returncode == 2
-    assert len(result.stderr.splitlines()) == 7
+    assert len(result.stderr.splitlines()) == 8
     assert machine.run("--help").stdout == result.stderr
     assert machine.times_made() == 0
 
@@ -183,6 +185,64 @@ def test_an_incomplete_environment_is_made_again(machine):
     (machine.home / "broken").unlink()
     assert machine.run("true").returncode == 0
     assert machine.times_made() == 2
+
+
+# --- a named Python with DOLFINx
+
+WHEELS = {"dolfinx-solver-real", "fenics-basix", "fenics-ffcx", "fenics-ufl", "mpi4py", "mpich"}
+NAMED = f"""
+case $1 in
+    -c) echo "$0" ;; # its version is one of ours
+    -P) ;; # so is its DOLFINx
+    *) exec {PYTHON} "$@" ;;
+esac
+"""
+
+
+@pytest.fixture
+def named(machine):
+    machine.command("named", NAMED, machine.home)
+    return str(machine.home / "named")
+
+
+def pins(lock):
+    return set(re.findall(r"^([a-z0-9-]+)==", lock, re.MULTILINE))
+
+
+def test_named_python_brings_dolfinx(machine, named):
+    assert machine.run("true", TIPRUB_PYTHON=named).returncode == 0
+    venv = (machine.home / "venv").read_text()
+    assert "--system-site-packages" in venv
+    assert f"--python {named} " in venv
+    assert pins((machine.home / "installed").read_text()) == pins(LOCK) - WHEELS
+    assert pins(LOCK) > WHEELS
+
+
+def test_named_python_stays_until_another_is_named(machine, named):
+    machine.run("true", TIPRUB_PYTHON=named)
+    machine.run("true")
+    assert machine.times_made() == 1
+    change_lock(machine)
+    machine.run("true")
+    assert machine.times_made() == 2
+    assert f"--python {named} " in (machine.home / "venv").read_text()
+    machine.run("true", TIPRUB_PYTHON="")
+    assert machine.times_made() == 3
+    assert "--system-site-packages" not in (machine.home / "venv").read_text()
+    assert pins((machine.home / "installed").read_text()) == pins(LOCK)
+
+
+@pytest.mark.parametrize(
+    ("python", "words"),
+    [
+        (str(PYTHON), r"\w+ is not installed: DOLFINx .* as fem/dolfinx\.md says"),
+        ("/nowhere", r"is no Python 3\.12, 3\.13 or 3\.14; name one that has DOLFINx"),
+    ],
+)
+def test_named_python_without_dolfinx_is_refused(machine, python, words):
+    assert re.fullmatch(
+        rf"\./run: TIPRUB_PYTHON={python}: {words}", machine.refusal(TIPRUB_PYTHON=python)
+    )
 
 
 # --- what the command finds

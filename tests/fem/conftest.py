@@ -1,6 +1,4 @@
-import dolfinx_solver  # noqa: F401  orders MPI ahead of the compiled bindings
-
-from mpi4py import MPI
+from fem.petsc import MPI
 
 import h5py  # noqa: F401  loads its HDF5 before DOLFINx loads its own
 import numpy as np

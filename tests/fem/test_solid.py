@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-import dolfinx_solver  # noqa: F401  orders MPI ahead of the compiled bindings
+from fem.petsc import MPI  # noqa: F401  ahead of DOLFINx
 
 import gmsh
 import numpy as np

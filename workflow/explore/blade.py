@@ -8,7 +8,7 @@ from itertools import repeat
 from pathlib import Path
 from typing import Any
 
-import dolfinx_solver  # noqa: F401  orders MPI ahead of the compiled bindings
+from fem.petsc import MPI  # noqa: F401  ahead of DOLFINx
 
 import numpy as np
 import xarray as xr
