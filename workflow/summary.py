@@ -41,7 +41,7 @@ COLUMNS = (  # of the numbers of ``sweeps.peak_results``
     Column("displacement", "um", 1e6, "largest µm"),
     Column("wear", "um", 1e6, "wear µm"),
     Column("worn_volume", "mm3", 1e9, "worn mm³"),
-    Column("opening", "um", 1e6, "opening µm"),
+    Column("opening", "um", 1e6, "mean worn depth µm"),
     Column("force", "N", 1.0, "force N"),
     Column("force_peak", "N", 1.0, "peak force N"),
     Column("torque", "N m", 1.0, "torque N m"),
@@ -54,31 +54,31 @@ MEANING = {  # of the columns
     "the last revolutions of the run",
     "largest": "largest |u_r| there in the whole run, and the revolution of it",
     "wear": "deepest, mean over the leading eighth of the chord",
-    "opening": "worn volume over the area that the tip sweeps",
+    "mean worn depth": "worn volume over the area that the tip sweeps",
     "force": "mean normal force on the chord over the revolutions; peak force: the largest on an "
     "eighth of the chord",
     "torque": "mean of the revolutions, against the rotation",
-    "stress": "largest von Mises stress away from clamp and contact, of a recorded state, ± what "
-    "single elements differ from their mean at nodes, else of the last revolution as the scene's "
-    "page shows it",
-    "±": "root of the sum of squares of what these change: a twin (gaps changed by 1e-10), models "
-    "with frequencies off by their known errors, a model with half the patches, a run with twice "
-    "the steps, rods and strips (the last two not with central differences, on points, or where a "
-    "run goes on from another); for the amplitude also what a resonance between two speeds of the "
-    "sweep may be higher by; for the speed the spacing of the sweep and the errors of the "
-    "frequencies, not what step, strips and patches shift",
+    "stress": "largest von Mises stress away from clamp and contact, of a recorded state, ± the "
+    "difference of single elements from their mean at nodes; otherwise of the last revolution, as "
+    "the page of the scene shows it",
+    "±": "root of the sum of squares of the changes by a twin (gaps changed by 1e-10), by models "
+    "with frequencies off by their known errors, by a model with half the patches, and by a run "
+    "with twice the steps, rods and strips (the last two not with central differences, with "
+    "points, or in a run that continues from another); for the amplitude also the rise of a "
+    "resonance between two speeds of the sweep; for the speed the spacing of the sweep and the "
+    "errors of the frequencies, without shifts by step, strips and patches",
     "≥": "as ±, but some of these are not known",
     AT_END[0]: f"whether the motion is {', '.join(TRENDS)}, by the range of u_r of each revolution",
     AT_END[1]: "time constant of the mode that responds, in which it dies out to 1/e",
     AT_END[2]: "volume worn in a revolution of the last quarter of the run",
-    ONE_MOTION: "none of the second runs leads to another motion",
-    TWO_MOTIONS: "the last digits of the model choose between two motions, the second number is "
-    "that of the other",
-    CHAOTIC: "the gaps' tenth digit changes the numbers by over 1 %",
+    ONE_MOTION: "no second run leads to another motion; the motion need not be steady",
+    TWO_MOTIONS: "small changes of the model lead to one motion or the other; both solutions are "
+    "listed",
+    CHAOTIC: "a change of all gaps by 1e-10 changes the numbers by over 1 %",
 }
 FINER = {"finer", "companion"}  # second runs of other fineness: one of them
 PARTS = {  # of uncertainties, that may not be known
-    "twin": "what a twin changes",
+    "twin": "change by a twin",
     "model": "error of the model",
     "mesh": "error of the mesh",
     "fineness": "error of step, strips and patches (no result of other fineness)",
@@ -382,7 +382,7 @@ def notes(scene: Mapping[str, Any]) -> list[str]:
     if told:
         lines.append(f"Not known: {', '.join(told)}.")
     if scene["mu_crit"]:
-        lines.append(f"Friction locks the tip from {scene['mu_crit']:.3f} on.")
+        lines.append(f"The tip locks at a friction coefficient of {scene['mu_crit']:.3f} or more.")
     cost = f"{scene['runs']} runs, {scene['answers_s']:.1f} s of CPU time"
     return [*lines, f"Uncertainties: {cost}; the sweep: {scene['sweep_s']:.0f} s."]
 
@@ -401,7 +401,7 @@ def at_speeds(scene: Mapping[str, Any]) -> list[str]:
     def at(over_f1: float) -> str:
         return f"{RPM_PER_HZ * scene['f1_Hz'] * over_f1:.0f} rpm ({over_f1:.3f})"
 
-    crossings = ", ".join(f"k = {k} at {at(of)}" for k, of in scene["crossings"].items())
+    crossings = ", ".join(f"EO {k} at {at(of)}" for k, of in scene["crossings"].items())
     seen = {at(end["over_f1"]): _seen(end) for end in scene["ends"]}
     ends = "; ".join(f"{where}: {what}" for where, what in seen.items() if what)
     lines = {"Linear crossings of f₁ (and over f₁(0))": crossings, "Ends of the sweep": ends}

@@ -123,9 +123,9 @@ def test_the_answer_tells_what_meets_the_shifts_and_which_K_they_prefer():
     fits = {of.name: taken if of.K == 4.55 else loose for of in FITS}
     text = report.answer({"fits": fits, "prior": of_prior(PRIORS)}).replace("\n", " ")
     told = (
-        "Of 2 settings", "in 2 with K = 0.45", "(1 of these", "in 0 with K = 4.55", "is 1.3 half",
-        "in 2 ", "K = 0.45 by 2.0 to 1", "K = 4.55 by 4.0 to 1", "30 and 250", "take 4.55",
-        "factor of 4 (assumed: 3.5)", "by 8 (170)",
+        "Of 2 settings", ", 2 with K = 0.45", "(1 of these", ", 0 with K = 4.55", "is 1.3 half",
+        ", and 2 ", "K = 0.45 by 2.0 to 1", "K = 4.55 is preferred by 4.0 to 1", "30 and 250",
+        "take 4.55", "factor of 4 (assumed: 3.5)", "by 8 (170)",
     )  # fmt: skip
     assert re.search(".*".join(map(re.escape, told)), text)
 

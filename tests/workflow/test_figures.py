@@ -753,7 +753,10 @@ NUMBERS = {  # by figure and what is shown: the numbers that are drawn, and what
     ),
     ("loads", "worn volume in mm3"): (lambda drawn: heights(drawn.axes[2], 1), [[10, 30]]),
     # 1 mm3 is 1e-9 m3, over 0.1 m2
-    ("loads", "opening of the gap"): (lambda drawn: scale_beside(drawn.axes[2], "opening"), 0.01),
+    ("loads", "opening of the gap"): (
+        lambda drawn: scale_beside(drawn.axes[2], "worn depth"),
+        0.01,
+    ),
     ("design", "amplitude and wear of the rows in µm, over what they change"): (
         lambda drawn: [axes.lines[0].get_xydata().T for axes in drawn.axes],
         [[[0.3, 0.6, 1.2], [40, 20, 1]], [[0.3, 0.6, 1.2], [5, 4, 0]]],
@@ -853,7 +856,7 @@ def test_a_grid_without_any_peak_is_drawn(grid):
         (0.02, "sensitive", "sensitive"),
         (1e-6, "sensitive", "predictable"),  # the wear parts, the response does not
         (None, "sensitive", "sensitive"),  # the twin ended otherwise
-        (None, "ok", "no twin was marched"),
+        (None, "ok", "no twin was computed"),
     ],
 )
 def test_states_of_a_peak(departure, status, state):

@@ -142,7 +142,7 @@ def test_scene_says_its_model_its_crossings_and_what_its_ends_show(summed):
     assert "76 DoFs (frequencies within 0.01 % of the full one)" in summary.about(scene)
     assert summary.about(scene).endswith("runs: 40 ok, 1 diverged; no contact: too wide a gap")
     assert summary.notes(scene)[:2] == [
-        "Linear crossings of f₁ (and over f₁(0)): k = 4 at 3720 rpm (0.310).",
+        "Linear crossings of f₁ (and over f₁(0)): EO 4 at 3720 rpm (0.310).",
         "Ends of the sweep: 2400 rpm (0.200): 2 lobes; 4800 rpm (0.400): gap 50.0 and 60.0 µm at "
         "ξ = 1/16 and 15/16, sensitive.",
     ]

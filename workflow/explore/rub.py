@@ -147,7 +147,7 @@ def animation(rub: Rub, title: str) -> FuncAnimation:
 
     def show(frame: int) -> None:
         n, s = moments[frame]
-        drawn.suptitle(f"{above}\nround {n + 1} of {rounds}{ended}", fontsize=8)
+        drawn.suptitle(f"{above}\nrevolution {n + 1} of {rounds}{ended}", fontsize=8)
         for line, data in zip(lines, _lines(rub, n, s), strict=True):
             line.set_data(*data)
         now = n + (s + 1) / samples
@@ -227,7 +227,7 @@ def _history(axes: Axes, rub: Rub) -> None:
     low, high = np.nanmin(rub.u_r), np.nanmax(rub.u_r)
     margin = 0.05 * (high - low) or 1.0
     axes.set(
-        xlabel="time (rounds)",
+        xlabel="time (revolutions)",
         ylabel=rf"$u_r$ at {style.PLACE}," + f"\n{style.OVER_GAP}",
         ylim=(low - margin, high + margin),
     )

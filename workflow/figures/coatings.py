@@ -25,7 +25,7 @@ MARKS = (
 STATES = {  # of a peak: its mark
     "predictable": "\N{BLACK CIRCLE}",
     "sensitive": "\N{WHITE DIAMOND}",
-    "no twin was marched": "\N{WHITE CIRCLE}",
+    "no twin was computed": "\N{WHITE CIRCLE}",
     "no run near it has a result": "x",
 }
 
@@ -57,7 +57,7 @@ def peaks(grid: Case, order: int = 4) -> Figure:
         image = cells.matrix(axes, records, "E", "K", "number", **look)
         drawn.colorbar(image, ax=axes, pad=0.01, aspect=15, ticks=MaxNLocator(5), label=label)
         axes.set_ylabel(COATINGS["K"])
-    panels[0].set_title(rf"amplitude of the peak $k$ = {order} at {style.PLACE}, {style.OVER_GAP}")
+    panels[0].set_title(rf"amplitude of the peak of EO {order} at {style.PLACE}, {style.OVER_GAP}")
     said = rf"its critical speed $\Omega_c/f_1(0)$; $f_1$ = {order}$\Omega$ at {crossing:.3f}"
     panels[1].set(title=said, xlabel=COATINGS["E"])
     drawn.supxlabel(MARKS, fontsize=7)
@@ -80,7 +80,7 @@ def predictability(grid: Case) -> Figure:
     cases = sorted(grid["cases"], key=lambda case: (-case["K"], case["E"]))
     states = ", ".join(f"{mark} {state}" for state, mark in STATES.items())
     orders = " and ".join(map(str, grid["orders"]))
-    said = f"share of runs that are not ok (%)\npeaks $k$ = {orders}: {states}"
+    said = f"share of runs that are not ok (%)\npeaks of EO {orders}: {states}"
     look = {"text": "text", "labels": COATINGS | {"not ok": said}, "limits": (0, 100)}
     drawn = cells.draw([case | _cell(case) for case in cases], "E", "K", "not ok", **look)
     drawn.axes[0].set_title(_totals(grid))
@@ -96,7 +96,7 @@ def state_of(peak: Case | None) -> str:
     if peak is None:
         return "no run near it has a result"
     if peak["departure"] is None:
-        return "sensitive" if peak["status"] == "sensitive" else "no twin was marched"
+        return "sensitive" if peak["status"] == "sensitive" else "no twin was computed"
     return "sensitive" if peak["departure"] > SENSITIVE_FROM else "predictable"
 
 

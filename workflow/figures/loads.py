@@ -104,7 +104,7 @@ def panels(
         axes.set(ylabel=label, ylim=(0, None))
         if name == "worn_volume":
             per_mm3 = MICRO / CUBIC_MM * loads[0].opening_per_volume
-            style.beside(axes, per_mm3, "mean opening (µm)")
+            style.beside(axes, per_mm3, "mean worn depth (µm)")
         if name == "torque":
             axes.set_title(_unknown(loads), loc="right", fontsize=7)
     for axes in used:

@@ -19,11 +19,11 @@ WAYS = {  # through the peak: format and colour
     "from rest, worn liner": (":", style.GREEN),
 }
 LABELS = {
-    "amplitude": f"amplitude, $k$ = {ORDER}, {style.OVER_GAP}",
+    "amplitude": f"amplitude, EO {ORDER}, {style.OVER_GAP}",
     "wear": f"deepest wear {style.OVER_GAP}",
 }
 GROWTH = {
-    "rounds": "rounds, end of a window of ten",
+    "rounds": "revolutions, end of a window of ten",
     "amplitude": rf"$\|Y\|$ at {style.PLACE}, {style.OVER_GAP}",
 }
 PAPER_ROUNDS = 20
@@ -52,7 +52,7 @@ def through_peak(
         for speed, amplitude in zip(of.speeds, along_order(of.sweep, ORDER), strict=True)
     ]
     lines.curves(panels[0], after, "rounds", "amplitude", "speed", markerfacecolor="white")
-    panels[0].set(xscale="log", xlabel="rounds", ylabel=LABELS["amplitude"], ylim=(0, None))
+    panels[0].set(xscale="log", xlabel="revolutions", ylabel=LABELS["amplitude"], ylim=(0, None))
     panels[0].set_xticks(rounds, rounds)
     panels[0].minorticks_off()
     panels[0].legend(title=r"$\Omega/f_1(0)$", ncols=2, handlelength=2.2)

@@ -66,13 +66,13 @@ def displacement(coarse: Response, fine: Response, steps: Sequence[Response]) ->
         start.set(
             ylim=(low - FOOTROOM * (high - low), high + HEADROOM * (high - low)),
             ylabel=f"$u_r$ at {style.PLACE}, {style.OVER_GAP}",
-            title=f"{_title(runs, -1)}, first {FIRST_ROUNDS} rounds",
+            title=f"{_title(runs, -1)}, first {FIRST_ROUNDS} revolutions",
         )
-        end.set(title="last round", xticks=rounds - 1 + np.arange(5) / 4)
+        end.set(title="last revolution", xticks=rounds - 1 + np.arange(5) / 4)
         end.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), handlelength=2.2)
     style.letter_panels(panels[:, 0])
     for axes in panels[-1]:
-        axes.set_xlabel("time (rounds of the blade)")
+        axes.set_xlabel("time (revolutions)")
     return drawn
 
 

@@ -178,7 +178,7 @@ def over_time(without: Response, withit: Response) -> Figure:
         _mark_modes(axes, modes)
     panels[0].yaxis.set_major_locator(MultipleLocator(5))
     panels[0].xaxis.set_major_locator(MultipleLocator(2))
-    panels[-1].set_xlabel(f"time (rounds of the blade), middle of a window of {WINDOW} rounds")
+    panels[-1].set_xlabel(f"time (revolutions), middle of a window of {WINDOW} revolutions")
     return drawn
 
 
@@ -190,7 +190,7 @@ def _at_peak(response: Response, peak: Peak, f1: float) -> str:
     chance = ", sensitive" if response.status[peak.index] == "sensitive" else ""
     return (
         rf"$\Omega_c$ = {speed_text(response, peak)}{chance}"
-        f"\nlast {SPECTRUM_ROUNDS} rounds: mode 1 has {100 * share:.1f} % of the energy; "
+        f"\nlast {SPECTRUM_ROUNDS} revolutions: mode 1 has {100 * share:.1f} % of the energy; "
         f"entropy of the amplitudes {disorder(last, peak.Omega_c):.2f}"
     )
 

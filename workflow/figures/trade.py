@@ -28,7 +28,7 @@ LABELS = {
     "amplitude": "error of amplitude\n" + r"$\|Y\|$ (%)",
     "wear": "error of\nwear map (%)",
     "force": "error of\npeak force (%)",
-    "history": "error of first\nfive rounds (%)",
+    "history": "error of first\nfive revolutions (%)",
     "piecewise-exact": "piecewise-exact, by step",
     "central": "central differences, by step",
     "mass-scaled": "central differences, mass-scaled, by step",
@@ -50,7 +50,7 @@ COLUMNS = {
     "wear": "wear\nmap",
     "lobes": "lobes",
     "force": "peak\nforce",
-    "history": "first\nrounds",
+    "history": "first\nrevolutions",
     "time": "time\nsaved",
 }
 SHOWN = 0.1, 100  # % at the ends of the colours; white below

@@ -50,14 +50,15 @@ def _fit(of: Fit, found: Mapping[str, Any]) -> list[str]:
 
 
 ANSWER = """\
-Of {points} settings run, the paper's four shifts come out to half a digit of Ω_c in {met_loose}
-with K = {K_loose} for E = 1 ({order} of these with the higher peak and deeper wear for E = 10), in
-{met} with K = {K} for both (the nearest is {nearest:.1f} half digits off), and in {met_other} over
-the k = 6 crossing that the paper's k = 4 implies. The shifts alone prefer K = {K_loose} by
-{shifts:.1f} to 1, with that order as data K = {K} by {all_data:.1f} to 1 (effective sizes
-{few:.0f} and {many:.0f}); the scenes take {K}, as the paper's figures differ "by parameter E". Left
-open (5 to 95 %) are the casing's largest distortion by a factor of {casing[0]:.2g} (assumed:
-{casing[1]:.2g}), the unit of E by {unit[0]:.2g} ({unit[1]:.3g})."""
+Of {points} settings, {met_loose} with K = {K_loose} for E = 1 reproduce the paper's four critical
+speeds to half a digit of Ω_c ({order} of these also the higher peak and deeper wear for E = 10),
+{met} with K = {K} for both (the nearest is {nearest:.1f} half digits off), and {met_other} over the
+crossing of EO 6 that the paper's EO 4 implies. The rises of the critical speeds above the linear
+crossings prefer K = {K_loose} by {shifts:.1f} to 1; with that order as data K = {K} is preferred by
+{all_data:.1f} to 1 (effective sizes {few:.0f} and {many:.0f}). The scenes take {K}, as the paper's
+figures differ "by parameter E". Left open (5 to 95 %) are the casing's largest distortion by a
+factor of {casing[0]:.2g} (assumed: {casing[1]:.2g}), the unit of E by {unit[0]:.2g}
+({unit[1]:.3g})."""
 WIDTH = 124  # of the lines of a page
 
 
@@ -108,7 +109,7 @@ def of_scene(found: Mapping[str, float | None]) -> str:
     """How near the scenes' values are to the medoid."""
     off = found["off_medoid"]
     if off is None:
-        return "No point of the posterior has the paper's k = 4 shifts: there is no medoid."
+        return "No point of the posterior has the paper's speeds of EO 4: there is no medoid."
     return fill(
         f"The scenes keep the medoid of an earlier run, in the mean {abs(off):.1%} "
         f"{'nearer to' if off < 0 else 'farther from'} all points of the posterior than today's.",

@@ -205,7 +205,7 @@ def superharmonics(numbers: Numbers) -> Finding:
             "in the spectra": clear,
         },
         "Away from k = 4 and 6 the tip wears where the casing is nearest, in marks of successive "
-        "rounds that overlap.",
+        "revolutions that overlap.",
     )
 
 
@@ -385,7 +385,7 @@ def growth(numbers: Numbers) -> Finding:
     steady = "The amplitudes grow no further: the liner does not wear any more."
     return Finding(
         statements=tuple(
-            more(f"‖Y‖ after 200 rounds over 20, {name}", ratio, 1 + INSIGNIFICANT)
+            more(f"‖Y‖ after 200 revolutions over 20, {name}", ratio, 1 + INSIGNIFICANT)
             for name, ratio in ratios.items()
         ),
         because=left if fallen else steady,

@@ -15,7 +15,7 @@ NEARLY_ALL, HARDLY_ANY = 0.9, 0.1  # share of the draws
 INTRODUCTION = """\
 Claims of the paper by where they hold: on the reference blade with the scenes' values, on {other},
 and in the draws of the posterior that the scenes take, where casing, unit of E and damping vary as
-far as the paper's shifts and the order of its coatings allow ({draws} draws: a share of
+far as the paper's critical speeds and the order of its coatings allow ({draws} draws: a share of
 {share:.0f} % has a standard error of {error:.0f} %). Claims about model and method have no
 draws."""
 DRAWN = {  # the error is that of the binomial
@@ -28,8 +28,7 @@ GROUPS = {  # what is said of the claims of each
     " draws:",
     "here": "**Hold here, but not everywhere**: on the other blade, or in more than a tenth of the"
     " draws, they do not:",
-    "data": "**Were data here**, so that their holding tells nothing; only on the other blade are"
-    " they predictions:",
+    "data": "**Were data here**, and are predictions on the other blade only:",
     "elsewhere": "**Differ here, and hold elsewhere**: on the other blade, or in more than a tenth"
     " of the draws:",
     "nowhere": "**Hold on neither blade**, and in at most a tenth of the draws (a choice of ours"
@@ -37,22 +36,23 @@ GROUPS = {  # what is said of the claims of each
     "open": "**Open**: our uncertainty spans both answers, or their runs are missing:",
 }
 LONG = """\
-**Twenty rounds are not the end.** At {peak:.3f} f₁(0), the k = 4 peak of E = 10 after {rounds}
-rounds, the amplitude is {begin:.2f} gaps then and {end:.2f} after {last}. A run-up through that
-peak, each speed from where the one before ended, reaches {up:.1f} gaps and {up_wear:.1f} gaps of
-wear at {up_at:.3f}{ended}; runs from rest reach {rest:.1f} and {rest_wear:.1f}. A critical speed
-read from runs from rest is no bound for an engine that accelerates."""
+**Twenty revolutions are not the end.** At {peak:.3f} f₁(0), the peak of EO 4 of E = 10 after
+{rounds} revolutions, the amplitude is {begin:.2f} gaps then and {end:.2f} after {last}. A run-up
+through that peak, each speed from the end of the one before, reaches {up:.1f} gaps and
+{up_wear:.1f} gaps of wear at {up_at:.3f}{ended}; runs from rest reach {rest:.1f} and
+{rest_wear:.1f}. A critical speed from runs from rest is no bound for an engine that accelerates."""
 STILL_GROWING = ", where it ends, so that its peak may be higher still"
 EXPERIMENT = """\
-**What an experiment would have to measure.** The paper's four shifts and the order of its coatings
-leave open the unit of E by a factor of {unit[0]:.2g} (assumed: {unit[1]:.3g}), the casing's largest
-distortion by {casing[0]:.2g} ({casing[1]:.2g}), damping by {damping[0]:.2g} ({damping[1]:.2g}), and
-the mean distortion between {mean[0]:.2g} and {mean[2]:.2g} of the second harmonic ({assumed[0]:.2g}
-and {assumed[2]:.2g}; all 5 to 95 %). In {four:.0f} % of the posterior ({four_before:.0f} % of the
-prior) the casing is nearest at four places instead of two. The number of rub marks away from
-resonance tells that; the paper's two (C15) were no datum. The depth of a slow rub tells the largest
-distortion; a ring-down without contact tells damping; an indentation by the tip tells the unit of E
-times footprint over thickness, and no more than this product enters the contact force."""
+**What an experiment would have to measure.** The paper's four critical speeds and the order of its
+coatings leave open the unit of E by a factor of {unit[0]:.2g} (assumed: {unit[1]:.3g}), the
+casing's largest distortion by {casing[0]:.2g} ({casing[1]:.2g}), damping by {damping[0]:.2g}
+({damping[1]:.2g}), and the mean distortion between {mean[0]:.2g} and {mean[2]:.2g} of the second
+harmonic ({assumed[0]:.2g} and {assumed[2]:.2g}; all 5 to 95 %). In {four:.0f} % of the posterior
+({four_before:.0f} % of the prior) the casing is nearest at four places instead of two. The number
+of rub marks away from resonance shows this; the paper's two (C15) were no datum. The depth of a
+slow rub shows the largest distortion; a ring-down without contact shows damping; an indentation by
+the tip shows the unit of E times footprint over thickness, and no more than this product enters the
+contact force."""
 
 
 def text(claims: Sequence[Row], fits: Mapping[str, Any], long: Mapping[str, Any]) -> str:

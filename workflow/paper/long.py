@@ -53,7 +53,7 @@ def table(found: Mapping[str, Any]) -> str:
     """Two tables: over the rounds, and through the peak."""
     head = ["‖Y‖ / gap at Ω / f₁(0) =", *(f"{speed:.3f}" for speed in found["speeds"])]
     lines = [
-        [f"after {rounds} rounds", *(f"{value:.2f}" for value in along)]
+        [f"after {rounds} revolutions", *(f"{value:.2f}" for value in along)]
         for rounds, along in zip(found["rounds"], found["amplitude"], strict=True)
     ]
     by_way = [

@@ -108,7 +108,7 @@ def fewer_rounds(rows: Rows) -> str:
         of_scenes = runs.reindex(SCENES)
         times = ", ".join(of_scenes["cpu_s"].map(_ms))
         lines.append([name, *of_scenes["amplitude"].map(percent), times])
-    return table(["rounds before", *SCENES, "ms per run"], lines)
+    return table(["revolutions before", *SCENES, "ms per run"], lines)
 
 
 def fewer_speeds(rows: Rows) -> str:
