@@ -26,7 +26,7 @@ PURE = (
     "stress",
     "share",
     "error",
-    "rounds",
+    "revolutions",
 )
 NUMBER = re.compile(r"[-\N{MINUS SIGN}]?[\d.,]+( %)?|\$\\mathdefault.*")
 
