@@ -116,7 +116,7 @@ class Thermal(Points):
         default=None, description="The same in rad/s, instead"
     )
     growth_m: tuple[float, ...] = Field(
-        min_length=2, description="Growth of the tip's radius less that of the casing there (m)"
+        min_length=2, description="Growth of the tip's radius less growth of the casing (m)"
     )
 
     def _speeds(self) -> tuple[float, ...]:
@@ -150,7 +150,7 @@ class RampTable(Points):
         min_length=1, description="Revolutions since the start, ascending, from 0"
     )
     factor: list[Annotated[float, Field(ge=0)]] = Field(
-        min_length=1, description="Factor on the distortion there, >= 0, linear between them"
+        min_length=1, description="Factor on the distortion, >= 0, linear in between"
     )
 
 
@@ -167,7 +167,7 @@ class Table(Points):
         description="Angles, ascending, from 0 to 360; or `table: FILE.csv`, with columns "
         "theta_deg and depth_m, depth_mm or depth_um",
     )
-    depth_m: list[float] = Field(min_length=2, description="Inward distortion there (m)")
+    depth_m: list[float] = Field(min_length=2, description="Inward distortion at these angles (m)")
 
     @checked
     def _one_round(self) -> None:

@@ -51,7 +51,7 @@ class Cost:
         """
         names = " and ".join(run.name for run in self.beside)
         beside = f", each with {names}" if names else ""
-        rounds = f"{'at most ' * self.until}{self.rounds} rounds"
+        rounds = f"{'at most ' * self.until}{self.rounds} revolutions"
         said = [
             f"{self.speeds} speeds of {rounds} of {self.steps:.6g} steps{beside}: "
             f"{self.all_steps:.2g} steps, some {duration(self.seconds)} on one core, "

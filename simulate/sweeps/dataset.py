@@ -46,9 +46,9 @@ ENERGIES = (
     "casing: work of the casing on the rods; work: of the contact forces on the blade; blade: "
     "kinetic and elastic energy at the end; damping: dissipated in the blade; elastic: energy of "
     "the rods under the tip at the end; plastic: dissipated in wear; released: elastic energy of "
-    "rods that left the footprint; blade_before: blade at the start, where the run goes on from "
-    "another; elastic_before: elastic there; numerical: created (> 0) or lost (< 0) by the scheme "
-    "= work + elastic - elastic_before + plastic + released - casing"
+    "rods that left the footprint; blade_before: blade at the start of a run that continues from "
+    "another; elastic_before: elastic at that start; numerical: created (> 0) or lost (< 0) by the "
+    "scheme = work + elastic - elastic_before + plastic + released - casing"
 )
 OF_FRICTION = (
     " - friction; friction: of work, that of the tangential forces; heat: of friction, from the "
@@ -60,7 +60,7 @@ VARIABLES = {  # of each run: dimensions beside the speed, unit, meaning
     "reason": ("", "1", "why a run is without contact; empty otherwise"),
     "rounds": ("", "1", "revolutions computed"),
     "end_xi": ("", "1", "chord fraction where a run ended early; else nan"),
-    "end_theta": ("", "rad", "angle in the casing there, else nan"),
+    "end_theta": ("", "rad", "casing angle where a run ended early; else nan"),
     "f1": ("", "1", "f1(Omega) over f1(0)"),
     "step": ("", "s", "time step h"),
     "step_limit": ("", "s", "stability limit with contact"),

@@ -23,7 +23,7 @@ def test_steps_twins_and_half_steps_are_counted(coarse_rom, twin, halving, times
     found = cost(case, coarse_rom)
     assert (found.speeds, found.steps, found.all_steps) == (10, 4096, 10 * 20 * 4096)
     (line,) = found.lines(memory=16e9)
-    assert line.startswith("10 speeds of 20 rounds of 4096 steps: 8.2e+05")
+    assert line.startswith("10 speeds of 20 revolutions of 4096 steps: 8.2e+05")
     with_others = cost(case.but(twin=bool(twin), halving=bool(halving)), coarse_rom)
     assert with_others.all_steps == times * found.all_steps
     assert with_others.seconds == pytest.approx(times * found.seconds)
@@ -31,7 +31,7 @@ def test_steps_twins_and_half_steps_are_counted(coarse_rom, twin, halving, times
 
 def test_rounds_of_runs_that_may_end_before_are_the_most(coarse_rom):
     (line,) = cost(scene(rounds=20, until="steady", record__history=None), coarse_rom).lines(16e9)
-    assert line.startswith("1 speeds of at most 20 rounds")
+    assert line.startswith("1 speeds of at most 20 revolutions")
 
 
 def test_steps_of_central_differences_are_those_of_the_limit(coarse_rom):

@@ -110,7 +110,7 @@ def tables(response: Response) -> list[dict[str, Any]]:
     energies = zip(sweep["energy"].values, sweep["ledger"].values.T, strict=True)
     found = [{"says": "energy of the run, J", "of": {str(name): told(of) for name, of in energies}}]
     for name, says in (
-        ("departure", "relative difference from its twin"),
+        ("departure", "relative difference from the twin run"),
         ("error", "relative error"),
     ):
         if name in sweep:

@@ -16,7 +16,7 @@ rule answers:
     params:
         run="workflow.jobs.answers:find",
     message:
-        "Peaks of scene {wildcards.scene}: force, torque, wear, and what is not known of them"
+        "Peaks of scene {wildcards.scene}: force, torque, wear, and their uncertainty"
     script:
         "../scripts/job.py"
 

@@ -46,7 +46,9 @@ class Curve(Points):
         description="Strains, ascending from 0; or `curve: FILE.csv`, with columns strain or "
         "strain_percent, and stress_Pa, stress_kPa or stress_MPa",
     )
-    stress_Pa: tuple[float, ...] = Field(min_length=2, description="Stress there (Pa), from 0")
+    stress_Pa: tuple[float, ...] = Field(
+        min_length=2, description="Stress at these strains (Pa), from 0"
+    )
 
     @checked
     def _monotone(self) -> None:
