@@ -220,8 +220,8 @@ def _solve(problem: NonlinearProblem, speed: float, load: float, last: float) ->
         raise EquilibriumError(
             f"no static equilibrium at {speed:.6g} rad/s (the last at {last:.6g} rad/s): after "
             f"{snes.getIterationNumber()} Newton steps the residual is {reached:.1e} of the "
-            f"centrifugal load (wanted {RESIDUAL_TOLERANCE:.0e}; {failure}); lower max_speed_rad_s "
-            f"or use prestress: linear"
+            f"centrifugal load (wanted {RESIDUAL_TOLERANCE:.0e}; {failure}); lower the highest "
+            f"speed or use prestress: linear"
         )
     # of the last tangent factorised
     _require_stable(snes.getKSP().getPC().getFactorMatrix().getMumpsInfog(12), speed, last)
@@ -233,5 +233,6 @@ def _require_stable(negative: int, speed: float, last: float) -> None:
     if negative > 0:
         raise EquilibriumError(
             f"the static equilibrium found at {speed:.6g} rad/s is not stable ({negative} negative "
-            f"eigenvalues of K; the last stable one is at {last:.6g} rad/s); lower max_speed_rad_s"
+            f"eigenvalues of K; the last stable one is at {last:.6g} rad/s); lower the highest "
+            f"speed"
         )

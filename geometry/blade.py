@@ -280,13 +280,14 @@ class Margins(Settings):
     )
 
 
+TOP_SPEEDS = ("max_speed_rad_s", "max_speed_rpm")
 SOURCES = ("sections", "section_table", "cad", "mesh_file")
 
 
 class Blade(SettingsFile):
     """One blade: geometry, mesh, material, clamp at the hub, interface, speed range, reduction."""
 
-    either: ClassVar = [SOURCES]
+    either: ClassVar = [SOURCES, TOP_SPEEDS]
 
     sections: Sections | None = Field(default=None, description="Geometry from parameters")
     section_table: SectionTable | None = Field(
@@ -297,8 +298,11 @@ class Blade(SettingsFile):
     mesh: MeshSize | None = Field(default=None, description="Mesh; required without mesh_file")
     material: Material = Field(description="Material")
     interface: Interface = Field(default=Interface(), description="Interface with the casing")
-    max_speed_rad_s: float = Field(
-        gt=0, description="Omega_m, the highest speed of the reduced model (rad/s)"
+    max_speed_rad_s: Annotated[float, Field(gt=0)] | None = Field(
+        default=None, description="Omega_m, the highest speed of the reduced model (rad/s)"
+    )
+    max_speed_rpm: Annotated[float, Field(gt=0)] | None = Field(
+        default=None, description="The same in rpm"
     )
     design_rpm: Annotated[float, Field(gt=0)] | None = Field(
         default=None, description="Design speed, marked in figures and summary (rpm)"
@@ -341,13 +345,13 @@ class Blade(SettingsFile):
     def _operates_within_its_speeds(self) -> None:
         given = {"geometry_at": self.geometry_at_rpm or 0.0}
         for name, rpm in (self.operating_rpm | given).items():
-            if rpm / RPM > self.max_speed_rad_s:
+            if rpm / RPM > self.top_speed:
                 raise SettingsError(
-                    f"above max_speed_rad_s: {self.max_speed_rad_s:g}, which is "
-                    f"{self.max_speed_rad_s * RPM:.6g} rpm: raise that",
+                    f"above the highest speed, {self.top_speed * RPM:.6g} rpm "
+                    f"({' or '.join(TOP_SPEEDS)}): raise that",
                     key=f"{name}_rpm",
                     value=rpm,
-                    allowed={"le": self.max_speed_rad_s * RPM},
+                    allowed={"le": self.top_speed * RPM},
                 )
 
     @checked
@@ -368,7 +372,7 @@ class Blade(SettingsFile):
     @property
     def top_speed(self) -> float:
         """Omega_m, rad/s."""
-        return self.max_speed_rad_s
+        return self.max_speed_rad_s or self.max_speed_rpm / RPM
 
     def require_speed(self, radius: float, lengths: str) -> None:
         """Refuse a tip at ``radius`` (m) above ``MOST_TIP_SPEED``; ``lengths``: where it is given.
@@ -378,16 +382,15 @@ class Blade(SettingsFile):
         SettingsError
             The unit of length or of speed is wrong.
         """
-        given = self.max_speed_rad_s
-        speed, rpm = given * radius, given * pi / 30
+        speed, key = self.top_speed * radius, TOP_SPEEDS[self.max_speed_rad_s is None]
         if speed > MOST_TIP_SPEED:
-            slip = f": {given:g} rpm are {rpm:.4g} rad/s" * (rpm * radius <= MOST_TIP_SPEED)
+            unit = "rad/s: those in rpm are max_speed_rpm" if self.max_speed_rad_s else "rpm"
             raise SettingsError(
                 f"the tip, at radius {radius:.4g} m, runs at {speed:.4g} m/s (allowed up to "
-                f"{MOST_TIP_SPEED:g}); check this speed (rad/s, not rpm{slip}) and {lengths}",
-                key="max_speed_rad_s",
-                value=given,
-                allowed={"le": MOST_TIP_SPEED / radius},
+                f"{MOST_TIP_SPEED:g}); check this speed ({unit}) and {lengths}",
+                key=key,
+                value=getattr(self, key),
+                allowed={"le": getattr(self, key) * MOST_TIP_SPEED / speed},
             )
 
     def settings_of_matrices(self) -> dict[str, Any]:
@@ -396,8 +399,8 @@ class Blade(SettingsFile):
         interface = {
             k: v for k, v in values["interface"].items() if (k in OF_POINTS) == self.of_points
         }
-        used = ("material", "prestress", "max_speed_rad_s")
-        return {key: values[key] for key in used} | {"interface": interface}
+        used = {key: values[key] for key in ("material", "prestress")}
+        return used | {"max_speed_rad_s": self.top_speed, "interface": interface}
 
     def settings_of_model(self) -> dict[str, Any]:
         """Settings on which the reduced model depends, besides the mesh and its directions."""

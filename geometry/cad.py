@@ -16,7 +16,7 @@ from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 
 from geometry.blade import Cad
-from geometry.frame import rotation, to_blade
+from geometry.frame import box, rotation, to_blade
 from geometry.mesh_faces import within_radius
 from geometry.project import MeshError, number, read_text, require_file
 from geometry.shape import Shape, faces_of, radii, sampled
@@ -60,6 +60,12 @@ class StepFile:
         return {"in" if name.upper().startswith("INCH") else name for name in converted} or {
             PREFIXES.get(prefix, f"{prefix}METRE") for prefix in prefixes
         }
+
+    @property
+    def described(self) -> str:
+        """Its unit and the box of the corners of its faces, in that unit and the file's axes."""
+        corners = np.concatenate([of for _, of in self.faces()])
+        return f"unit {' and '.join(sorted(self.units)) or 'not declared'}; {box(corners)}"
 
     def faces(self) -> list[tuple[str, NDArray[np.float64]]]:
         """Name and vertices (n, 3), in the file's unit, of the faces of its closed shells."""

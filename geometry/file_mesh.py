@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_matrix
 
 from geometry.blade import Material
+from geometry.frame import box
 from geometry.project import MeshError
 from geometry.split import NODES, Block, split, triangles_of
 
@@ -79,6 +80,19 @@ class FileMesh:
     def groups(self) -> set[str]:
         """Names of the groups that hold faces or nodes."""
         return {n for n, faces in self.face_groups.items() if len(faces)} | self.node_groups.keys()
+
+    @property
+    def described(self) -> str:
+        """Its cells, box and groups, in the unit and the axes of the file."""
+        used = self.without_unused()
+        groups = [
+            *(f"{name} ({len(of)} nodes)" for name, of in used.node_groups.items()),
+            *(f"{name} ({len(of)} faces)" for name, of in used.face_groups.items() if len(of)),
+        ]
+        return (
+            f"{self.made or f'{len(used.cells)} tetrahedra on {len(used.points)} nodes'}; "
+            f"{box(used.points)}; groups: {', '.join(groups) or 'none'}"
+        )
 
     def without_unused(self) -> "FileMesh":
         """The mesh without the nodes that no tetrahedron uses."""

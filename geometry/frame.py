@@ -41,6 +41,16 @@ def to_blade(
     return placed
 
 
+def box(points: NDArray) -> str:
+    """Box of points (n, 3) of a file, and the axis on which it is farthest from the origin."""
+    sides = list(zip("xyz", points.min(axis=0), points.max(axis=0), strict=True))
+    name, low, high = max(sides, key=lambda side: abs(side[1] + side[2]))
+    return (
+        f"box {', '.join(f'{axis} {a:.5g} to {b:.5g}' for axis, a, b in sides)}; "
+        f"radial {'-' if low + high < 0 else ''}{name} (assumed: farthest from 0)"
+    )
+
+
 def _unit(axis: str) -> NDArray:
     return np.eye(3)["xyz".index(axis[-1])] * (-1 if axis[0] == "-" else 1)
 

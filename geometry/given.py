@@ -8,7 +8,15 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
-from geometry.blade import MOST_TIP_SPEED, Blade, EnrichedBasis, MeshFile, settings_of_basis
+from geometry.blade import (
+    MOST_TIP_SPEED,
+    RPM,
+    TOP_SPEEDS,
+    Blade,
+    EnrichedBasis,
+    MeshFile,
+    settings_of_basis,
+)
 from geometry.frame import LENGTHS
 from geometry.project import (
     Settings,
@@ -116,14 +124,17 @@ class GivenMatrices(SettingsFile):
     max_speed_rad_s: float | None = Field(
         default=None, gt=0, description="Omega_m (rad/s), where K is given at rest alone"
     )
+    max_speed_rpm: float | None = Field(default=None, gt=0, description="The same in rpm")
     basis: EnrichedBasis = Field(default=EnrichedBasis(), description="Reduction basis")
 
     @checked
     def _one_highest_speed(self) -> None:
-        if (self.max_speed_rad_s is None) == (len(self.full_matrices.K) == 1):
+        given = [key for key in TOP_SPEEDS if getattr(self, key) is not None]
+        if len(given) != (len(self.full_matrices.K) == 1):
             raise SettingsError(
-                "needed where K is given at rest alone, else the last speed of K",
-                key="max_speed_rad_s",
+                "give one of max_speed_rad_s, max_speed_rpm where K is given at rest alone; else "
+                f"it is the last speed of K; found {' and '.join(given) or 'none'}",
+                key=TOP_SPEEDS[0],
             )
 
     @property
@@ -143,7 +154,7 @@ class GivenMatrices(SettingsFile):
     @property
     def top_speed(self) -> float:
         """Omega_m, rad/s."""
-        return self.max_speed_rad_s or self.speeds[-1]
+        return self.max_speed_rad_s or (self.max_speed_rpm or 0.0) / RPM or self.speeds[-1]
 
     def settings_of_matrices(self) -> dict[str, Any]:
         """Settings on which the matrices depend, besides their files."""

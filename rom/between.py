@@ -106,7 +106,7 @@ def resolved(
         if len(found) == MOST:
             raise RomError(
                 f"{shown}, for basis.tolerance_percent {basis.tolerance_percent:g} too much: lower "
-                f"max_speed_rad_s, or allow more"
+                f"the highest speed, or allow more"
             )
         speeds.append(_next(speeds))
         say(f"{shown}: one more, {speeds[-1]:.6g} rad/s")

@@ -15,7 +15,7 @@ from rom.full_model import FullModel
 from rom.model import CODE, Rom, RomError
 from rom.speeds import node_polynomial, places_between
 
-MORE = "raise basis.speeds, lower max_speed_rad_s"  # remedies of an error between the speeds
+MORE = "raise basis.speeds, lower the highest speed"  # remedies of an error between the speeds
 
 APART = 5.0  # times that c of neighbours may differ: at most 3.7 times on the blades tried
 SMALL = 0.1  # of the tolerance: an error that does not matter

@@ -222,7 +222,7 @@ class Rom(Stored):
             raise RomError(
                 f"the reduced K(Omega) is not positive definite at {Omega:.6g} rad/s (omega^2 = "
                 f"{values[0]:.3e} of its lowest mode): between the speeds of its basis the "
-                f"polynomial errs; raise basis.speeds, lower max_speed_rad_s or use prestress: "
+                f"polynomial errs; raise basis.speeds, lower the highest speed or use prestress: "
                 f"linear"
             )
         return np.sqrt(values), Phi

@@ -123,7 +123,7 @@ class ShiftInvert:
         if factor.negative > 0:
             raise ModesError(
                 f"K is not positive definite ({factor.negative} negative eigenvalues): the blade "
-                f"is not stable at this speed; lower max_speed_rad_s"
+                f"is not stable at this speed; lower the highest speed"
             )
         return factor
 

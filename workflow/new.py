@@ -14,12 +14,12 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from geometry.blade import Blade
+from geometry.blade import RPM, Blade
 from geometry.given import read_blade
 from geometry.project import (
-    MeshError,
     SettingsError,
     UserError,
+    about,
     check_settings,
     command,
     parse,
@@ -39,6 +39,7 @@ SOURCES = {  # template of a blade by the suffix of its file
     ".csv": "section_table",
     "": "sections",
 }
+SHOWN = SOURCES.keys() - {".brep", ".csv", ""}  # what they hold
 SHARES = (0.4, 0.95)  # of the blade's highest speed: of the sweep
 
 
@@ -94,7 +95,7 @@ def _scene(name: str, blade: str) -> str:
     highest = read_blade(Path(FOLDERS["blade"], f"{blade}.yaml")).top_speed
     if highest is None:
         raise SettingsError(f"{blade}: a reduced model from elsewhere: copy the scene `foreign`")
-    first, last = (float(f"{share * highest:.3g}") for share in SHARES)
+    first, last = (float(f"{share * highest * RPM:.3g}") for share in SHARES)
     return _filled("scene", name=name, blade=blade, first=f"{first:g}", last=f"{last:g}")
 
 
@@ -128,22 +129,21 @@ def main(arguments: list[str], here: Path = Path()) -> None:
     """Run the command line."""
     if not 2 <= len(arguments) <= 3 or arguments[0] not in FOLDERS:
         raise UserError(__doc__)
-    found = _contents(here / arguments[2]) if arguments[0] == "blade" and arguments[2:] else []
+    if arguments[0] == "blade" and Path(arguments[-1]).suffix.lower() in SHOWN:
+        _show(here / arguments[2])
     path = new(*arguments, here=here)
-    for line in found:
-        print(f"{arguments[2]}: {line}")
     first = "set the lines marked with <--, then: " if "<--" in path.read_text() else ""
     print(f"{path}: {first}{_next(*arguments)}")
 
 
-def _contents(file: Path) -> list[str]:
-    """Lines on the file of a blade; nothing of one that is not there, which ``new`` refuses."""
-    from geometry.contents import contents  # slow imports, which other kinds do without
+def _show(file: Path) -> None:
+    """Show what a mesh or a STEP file holds."""
+    from geometry.cad import StepFile  # slow imports, which other kinds do without
+    from geometry.mesh_file import read_mesh_file
 
-    try:
-        return contents(file) if file.is_file() else []
-    except MeshError as error:
-        raise error.within(file) from None
+    read = read_mesh_file if SOURCES[file.suffix.lower()] == "mesh_file" else StepFile
+    with about(file):
+        print(read(file).described.replace("; ", "\n"))
 
 
 def _next(kind: str, name: str, about: str = "reference") -> str:

@@ -115,7 +115,7 @@ def _remedy_of_speed(speeds: Speeds, rom: Rom, blade: str, highest: float) -> st
         return "; speeds.over_f1 are over f1(0): speeds in rad/s are speeds.rad_s"
     return (
         f": f1(0) = {rom.f1:.5g} Hz is that of this mesh, higher on a coarser one; raise "
-        f"max_speed_rad_s of blade {blade} to {ceil(highest)}, or lower the speed"
+        f"the highest speed of blade {blade} to {ceil(highest)} rad/s, or lower the speed"
     )
 
 

@@ -16,13 +16,14 @@ from simulate.scene.record import (
     Record,
 )
 from simulate.scene.scene import Scene, fault_of_blade
-from simulate.scene.speeds import OVER_F1, RAD_S, Speeds
+from simulate.scene.speeds import OF_RPM, OVER_F1, RAD_S, Speeds
 
 __all__ = [
     "BESIDE",
     "DYING_OUT",
     "GROWING",
     "LEADING",
+    "OF_RPM",
     "OVER_F1",
     "RAD_S",
     "STEADY",

@@ -1,11 +1,12 @@
 """Settings of a scene file: everything that a run depends on; keys end in their unit."""
 
 from itertools import product
+from math import nan
 from typing import Any, ClassVar, Literal, Self
 
-import numpy as np
 from pydantic import Field
 
+from geometry.blade import RPM
 from geometry.given import AnyBlade
 from geometry.project import Fault, Settings, SettingsError, SettingsFile, checked
 from simulate.scene.casing import MOST_ROUNDS, Casing, Clearance
@@ -265,14 +266,15 @@ def fault_of_blade(scene: Scene, blade: AnyBlade) -> Fault | None:
 
     Speeds over f1(0) are checked once the model is there.
     """
-    highest, allowed = float(scene.speeds.given.max()), blade.top_speed
-    if scene.speeds.rad_s is None or allowed is None or highest <= allowed * (1 + 1e-12):
+    speeds, top = scene.speeds, blade.top_speed
+    highest, unit = float(speeds.given.max()), speeds.in_rad_s(f1=nan)
+    if speeds.over_f1 is not None or top is None or highest * unit <= top * (1 + 1e-12):
         return None
-    rpm = 2 * np.pi / 60
-    slip = f"; {highest:g} rpm are {highest * rpm:.4g} rad/s" if highest * rpm <= allowed else ""
+    allowed = top / unit
+    slip = "; rpm are speeds.rpm" if speeds.rad_s and highest / RPM <= allowed else ""
     return Fault(
-        f"allowed up to {allowed:g}, the highest speed of blade {scene.blade}{slip}",
-        "speeds.rad_s",
+        f"allowed up to {allowed:.6g}, the highest speed of blade {scene.blade}{slip}",
+        f"speeds.{speeds.unit}",
         highest,
         {"le": allowed},
     )

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Discriminator, Field, Tag
 
+from geometry.blade import RPM
 from geometry.project import Settings, SettingsError, checked
 
 Positive = Annotated[float, Field(gt=0)]
@@ -31,12 +32,16 @@ SpeedValues = Annotated[
 ]
 
 
-OVER_F1, RAD_S = (1e-4, 20.0), (1.0, 1e5)  # slowest and fastest speed
+OVER_F1, RAD_S, OF_RPM = (1e-4, 20.0), (1.0, 1e5), (10.0, 1e6)  # slowest and fastest speed
 UNITS = {  # by key: these, and the likely slips
-    "over_f1": (OVER_F1, "0.3 is usual; rad/s are given as speeds.rad_s"),
+    "over_f1": (OVER_F1, "0.3 is usual; speeds in rad/s are speeds.rad_s, in rpm speeds.rpm"),
     "rad_s": (
         RAD_S,
-        "1 rpm is 0.1047 rad/s, 1 Hz is 6.283 rad/s; over f1(0) they are speeds.over_f1",
+        "speeds in rpm are given as speeds.rpm, over f1(0) as speeds.over_f1; 1 Hz is 6.283 rad/s",
+    ),
+    "rpm": (
+        OF_RPM,
+        "1 Hz is 60 rpm; speeds over f1(0) are given as speeds.over_f1, in rad/s as speeds.rad_s",
     ),
 }
 
@@ -44,12 +49,13 @@ UNITS = {  # by key: these, and the likely slips
 class Speeds(Settings):
     """Rotational speeds of the sweep."""
 
-    either: ClassVar = [("over_f1", "rad_s")]
+    either: ClassVar = [tuple(UNITS)]
 
     over_f1: SpeedValues | None = Field(
         default=None, description="Speeds over f1(0), revolutions per second over Hz"
     )
     rad_s: SpeedValues | None = Field(default=None, description="Speeds (rad/s)")
+    rpm: SpeedValues | None = Field(default=None, description="Speeds (rpm)")
 
     in_turn: bool = Field(
         default=False,
@@ -72,7 +78,7 @@ class Speeds(Settings):
     @property
     def unit(self) -> str:
         """Key by which they are given."""
-        return "rad_s" if self.over_f1 is None else "over_f1"
+        return next(unit for unit in UNITS if getattr(self, unit) is not None)
 
     @property
     def given(self) -> NDArray[np.float64]:
@@ -87,7 +93,7 @@ class Speeds(Settings):
 
     def in_rad_s(self, f1: float) -> float:
         """Their unit, rad/s; ``f1`` in Hz."""
-        return 1.0 if self.over_f1 is None else 2 * np.pi * f1
+        return {"over_f1": 2 * np.pi * f1, "rad_s": 1.0, "rpm": 1 / RPM}[self.unit]
 
     def omega(self, f1: float) -> NDArray[np.float64]:
         """Omega (speeds,), rad/s; ``f1`` in Hz."""

@@ -87,10 +87,11 @@ def test_matrices_of_their_own_speeds_are_checked_at_these(files, coarse_matrice
 
 def test_matrix_at_rest_alone_is_kept_over_all_speeds(files, tmp_path):
     folder, keys = files
-    given = settings(keys | {"K": {0.0: "K0.npz"}, "tip": "tip.csv"}, max_speed_rad_s=500.0)
+    rpm = 500.0 * 30 / np.pi
+    given = settings(keys | {"K": {0.0: "K0.npz"}, "tip": "tip.csv"}, max_speed_rpm=rpm)
     fom = read_matrices(given, "given", folder)
     rom, T = reduce(fom, given.basis, "r")
-    assert (len(rom.K), rom.Omega_m) == (1, 500.0)
+    assert (len(rom.K), rom.Omega_m) == (1, pytest.approx(500.0, rel=1e-15))
     assert rom.f1 == pytest.approx(259.334, rel=1e-4)  # of the coarse blade
     np.testing.assert_array_equal(rom.stiffness(500.0), rom.stiffness(0.0))
     Basis.of(fom, T, rom.provenance).save(tmp_path / "basis-r.h5")
@@ -309,6 +310,12 @@ def test_digits_that_lose_the_bending_are_refused(digits, error, files, coarse_m
         ({"tip": "tip.csv", "K": {100.0: "K0.npz"}}, {}, "full_matrices.K"),
         ({"tip": "tip.csv", "K": {0.0: "K0.npz"}}, {}, "max_speed_rad_s"),
         ({"tip": "tip.csv"}, {"max_speed_rad_s": 3.0}, "max_speed_rad_s"),
+        ({"tip": "tip.csv"}, {"max_speed_rpm": 3.0}, "max_speed_rad_s"),
+        (
+            {"tip": "tip.csv", "K": {0.0: "K0.npz"}},
+            {"max_speed_rad_s": 3.0, "max_speed_rpm": 3.0},
+            "max_speed_rad_s",
+        ),
     ],
 )
 def test_settings_that_do_not_hold_together(keys, others, key, files):

@@ -213,7 +213,7 @@ def test_equilibrium_that_is_not_found_names_speeds_and_residual(box):
     message = (
         r"no static equilibrium at (\S+) rad/s \(the last at (\S+) rad/s\): after \d+ Newton steps "
         r"the residual is \d.*e[+-]\d+ of the centrifugal load \(wanted 1e-09; .+\); "
-        r"lower max_speed_rad_s or use prestress: linear$"
+        r"lower the highest speed or use prestress: linear$"
     )
     error = refused(EquilibriumError, next, states, match=message)
     at, last = map(float, re.match(message, str(error)).groups())

@@ -3,10 +3,11 @@
 from math import inf, nan, nextafter
 from pathlib import Path
 
+import numpy as np
 import pytest
 from refused import refused
 
-from geometry.blade import MOST_TIP_SPEED, Blade, Material
+from geometry.blade import MOST_TIP_SPEED, RPM, TOP_SPEEDS, Blade, Material
 from geometry.profile import profile_at
 from geometry.project import Settings, SettingsError, check_settings
 from geometry.project.settings import _listed
@@ -73,7 +74,20 @@ def basis(keys):
         (basis("paper"), "basis", "paper", ["enriched", "paper"]),
         (basis("{kind: papre}"), "basis.kind", "papre", ["enriched", "paper"]),
         ({"mesh:\n  element_size_mm: 2.48": ""}, "mesh", None, None),
-        ({SPEED: ""}, "max_speed_rad_s", None, None),
+        ({SPEED: ""}, "", None, TOP_SPEEDS),
+        ({SPEED: f"{SPEED}\nmax_speed_rpm: 6200"}, "", None, TOP_SPEEDS),
+        (
+            {SPEED: "max_speed_rpm: 62070"},
+            "max_speed_rpm",
+            62070.0,
+            {"le": pytest.approx(MOST_TIP_SPEED / 0.5624 * RPM)},
+        ),
+        (
+            {SPEED: "max_speed_rpm: 5000\ndesign_rpm: 5600"},
+            "design_rpm",
+            5600.0,
+            {"le": pytest.approx(5000)},
+        ),
         ({PATCHES: f"{PATCHES}\nformat: 2\nrotor: mine"}, "format", 2, 1),
         ({PATCHES: f"{PATCHES}\nformat: 0"}, "format", 0, 1),
         ({PATCHES: f"{PATCHES}\nformat: '2'"}, "format", "2", {"expected": "1"}),
@@ -245,6 +259,15 @@ def test_default_is_of_sixteen_patches(read):
     blade = read({f"interface:\n  {PATCHES}\n": ""})
     assert blade.interface.patches == 16
     assert not blade.of_points
+
+
+def test_the_highest_speed_in_rpm_is_that_in_rad_s(read):
+    in_rpm, in_rad_s = (
+        read({SPEED: text}) for text in ("max_speed_rpm: 6000", f"max_speed_rad_s: {200 * np.pi!r}")
+    )
+    assert in_rpm.top_speed == pytest.approx(200 * np.pi, rel=1e-15)
+    assert in_rpm.settings_of_matrices().keys() == in_rad_s.settings_of_matrices().keys()
+    assert in_rpm.settings_of_matrices()["max_speed_rad_s"] == in_rpm.top_speed
 
 
 def test_the_settings_of_a_model_are_those_that_affect_it(coarse_blade, paper_blade):

@@ -4,7 +4,7 @@ from refused import refused
 from scenes import scene
 
 from geometry.project import SettingsError
-from simulate.scene import OVER_F1, RAD_S, Liner, Scene, fault_of_blade
+from simulate.scene import OF_RPM, OVER_F1, RAD_S, Liner, Scene, fault_of_blade
 
 WITHIN = {
     "accuracy": 0.01, "integrator": None, "liner__rods_per_round": None, "liner__strips": None
@@ -37,7 +37,7 @@ SCHEMES = ["piecewise-exact", "central-difference"]
         ({"liner__law__E": -1}, "liner.law.E", -1, {"gt": 0}),
         ({"liner__law__K": -0.1}, "liner.law.K", -0.1, {"ge": 0}),
         ({"integrator__fraction_of_limit": 1.2}, "integrator.fraction_of_limit", 1.2, {"le": 1}),
-        ({"speeds__rad_s": [100.0]}, "speeds", None, ("over_f1", "rad_s")),
+        ({"speeds__rad_s": [100.0]}, "speeds", None, ("over_f1", "rad_s", "rpm")),
         ({"speeds__over_f1": [-3]}, "speeds.over_f1.0", -3, {"gt": 0}),
         (
             {"speeds": {"over_f1": {"first": 0.1, "last": 0.3, "cuont": 3}}},
@@ -62,6 +62,7 @@ SCHEMES = ["piecewise-exact", "central-difference"]
             0.3,
             RAD_S,
         ),
+        ({"speeds": {"rpm": [0.3, 0.4]}}, "speeds.rpm", 0.3, OF_RPM),
         (
             {"clearance__leading_edge_over_span": None, "clearance__leading_edge_m": 0.3},
             "clearance.leading_edge_m",
@@ -183,6 +184,9 @@ def test_peaks_beyond_the_spectrum_are_refused_by_the_scene():
     assert error.faults[0][1:4] == ("peaks.orders", 31, {"le": 30})
 
 
+TOP = {"rad_s": 650.0, "rpm": pytest.approx(650 * 30 / np.pi), "over_f1": None}
+
+
 @pytest.mark.parametrize(
     ("speeds", "highest"),
     [
@@ -190,11 +194,14 @@ def test_peaks_beyond_the_spectrum_are_refused_by_the_scene():
         ({"over_f1": [20.0]}, None),  # f1(0) is that of the model
         ({"rad_s": [600.0, 651.0]}, 651.0),
         ({"rad_s": {"first": 60, "last": 6207, "count": 9}}, 6207.0),
+        ({"rpm": {"first": 60, "last": 6207, "count": 9}}, None),
+        ({"rpm": [6000, 6208]}, 6208.0),
     ],
 )
 def test_what_the_blade_alone_does_not_allow(coarse_blade, speeds, highest):
     found = fault_of_blade(scene(speeds=speeds), coarse_blade)
-    expected = ("speeds.rad_s", highest, {"le": 650})
+    unit, allowed = next((unit, of) for unit, of in TOP.items() if unit in speeds)
+    expected = (f"speeds.{unit}", highest, {"le": allowed})
     assert (found is None) if highest is None else (found[1:4] == expected)
 
 
@@ -221,12 +228,14 @@ def test_only_a_tangential_force_asks_for_the_tangential_interface(contact, dire
     assert scene(contact=profile | contact).directions == directions
 
 
-def test_speeds_in_both_units_are_the_same_speeds():
+def test_speeds_in_all_units_are_the_same_speeds():
     f1 = 250.0
     ratio = scene(speeds={"over_f1": {"first": 0.1, "last": 0.4, "count": 4}}).speeds.omega(f1)
     rad_s = scene(speeds={"rad_s": list(ratio)}).speeds.omega(f1)
     np.testing.assert_allclose(ratio, 2 * np.pi * 250 * np.array([0.1, 0.2, 0.3, 0.4]), rtol=1e-15)
     np.testing.assert_array_equal(ratio, rad_s)
+    rpm = scene(speeds={"rpm": {"first": 1500, "last": 6000, "count": 4}}).speeds.omega(f1)
+    np.testing.assert_allclose(rpm, ratio, rtol=1e-15)
 
 
 def test_clearances_in_both_units_are_linear_along_the_chord():

@@ -25,7 +25,7 @@ def assembled(blade: Blade, name: str, mesh: str | Path, say: Say = silent) -> M
     ``name``: of the blade, for the provenance. Raises the errors of ``fem.assemble.over_speeds``
     and ``rom.between.resolved``.
     """
-    speeds = basis_speeds(blade.basis, blade.max_speed_rad_s).tolist()
+    speeds = basis_speeds(blade.basis, blade.top_speed).tolist()
     fom, states = over_speeds(blade, name, mesh, speeds)
     return resolved(fom, counted(states, len(speeds), "speed", say), speeds, blade.basis, say)
 

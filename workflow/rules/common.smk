@@ -236,7 +236,7 @@ def blade_uses(*keys):
 def speeds_of_basis(wildcards):
     """Speeds at which the reduced model needs the full matrices, rad/s, and what decides on more."""
     blade = blade_settings(wildcards.blade)
-    speeds = basis_speeds(blade.basis, blade.max_speed_rad_s).tolist()
+    speeds = basis_speeds(blade.basis, blade.top_speed).tolist()
     return speeds, blade.basis.tolerance_percent
 
 

@@ -1,4 +1,4 @@
-FEM_USES = (*GEOMETRY_USES, "material", "max_speed_rad_s", "prestress")
+FEM_USES = (*GEOMETRY_USES, "material", "max_speed_rad_s", "max_speed_rpm", "prestress")
 
 
 use rule build_mesh as build_mesh_at_rest with:
