@@ -18,7 +18,7 @@ from simulate.scene.speeds import Positive, Speeds
 
 
 class Start(Settings):
-    """Start of each run from what a run of another scene left, in place of rest and no wear."""
+    """Start of each run from the end of a run of another scene, instead of rest and no wear."""
 
     scene: str = Field(
         pattern=r"^[a-z0-9][a-z0-9-]*$", description="Scene to continue from, with `record.end`"

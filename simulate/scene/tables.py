@@ -98,7 +98,7 @@ AROUND = ", from 0 at least to 360 at most"
 class Thermal(Points):
     """Growth of the tip against the casing over the speed, linear between its speeds.
 
-    It takes from the gap.
+    The growth reduces the gap.
 
     >>> table = Thermal(speed_over_f1=[0, 0.4], growth_m=[0, 2e-5])
     >>> float(table.growth(0.5 * 0.4 * 2 * np.pi * 250.0, f1=250.0).round(9))
@@ -138,7 +138,7 @@ AnyThermal = Annotated[Thermal, from_csv(Thermal, SPEEDS, GROWTHS)]
 
 
 class RampTable(Points):
-    """Factor on the distortion over the rounds; what the kernel makes of it: ``contact.ramp``.
+    """Factor on the distortion over the revolutions; in the kernel: ``contact.ramp``.
 
     >>> from simulate.contact.ramp import tabled
     >>> pulse = RampTable(rounds=[0, 1, 3, 4], factor=[0, 1, 1, 0.2])
@@ -155,7 +155,7 @@ class RampTable(Points):
 
 
 class Table(Points):
-    """Distortion over one round, linear between the angles and from the last to the first.
+    """Distortion over one revolution, linear between the angles and from the last to the first.
 
     >>> bump = Table(theta_deg=[0, 90, 180], depth_m=[0, 4e-5, 0])
     >>> bump.inward(np.radians([45.0, 90.0, 270.0])).round(9)

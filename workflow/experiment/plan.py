@@ -49,7 +49,7 @@ type Keys = tuple[str, ...]  # of a place in a file
 
 
 class Group(Settings):
-    """Rows that the same scenes have."""
+    """Rows with the same scenes."""
 
     name: str = Field(default="", description="Column `group` of the table")
     of: Any = Field(default=(), description="Labels of its scenes; by default all")
@@ -67,7 +67,7 @@ class Group(Settings):
 
 
 class Picture(Settings):
-    """What is drawn of the table. A column is one of it, or a key of the scenes by its path."""
+    """Picture of a table. A column is a column of the table, or a key of the scenes by its path."""
 
     kind: Literal["lines", "cells"] = Field(description="Curves over x, or a matrix of a number")
     x: str = Field(default="scene", description="Column: of curves, or of the matrix's columns")
