@@ -115,6 +115,7 @@ class Scene(SettingsFile):
         >>> stiffer = scene.but(liner={"law": {"E": 10.0}}, damping_ratio=0.01)
         >>> stiffer.liner.law.E, stiffer.liner.law.K, stiffer.damping_ratio
         (10.0, 0.45, 0.01)
+        >>> import numpy as np
         >>> oval = scene.but(casing=lambda theta: 2e-5 * np.cos(2 * theta))
         >>> oval.casing.inward(np.array([0.0, np.pi / 2]), gap=2e-5).round(9)
         array([ 2.e-05, -2.e-05])
