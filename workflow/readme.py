@@ -25,10 +25,14 @@ from workflow.paper import long, report
 from workflow.paper.claims import COATING
 from workflow.paper.printed import SHIFTS
 from workflow.study import bases, interface, mesh, rotor37, scaling, stability, trade_table
-from workflow.summary import about, at_speeds, over_gap
+from workflow.summary import about, at_speeds, over_gap, terminal
 
 FOLDERS = ("geometry", "fem", "rom", "simulate", "workflow", "profiles", "tests")
-PAGES = ("README.md", *(f"{folder}/README.md" for folder in FOLDERS))
+PAGES = (
+    "README.md",
+    *(f"{folder}/README.md" for folder in FOLDERS),
+    *("workflow/how-do-i.md", "fem/matrices.md", "fem/dolfinx.md"),
+)
 
 OVER_F1 = ("Ω_c / f₁(0)", "Ω_c / crossing")
 OVER_GAP = ("‖Y‖ / gap", "worn depth / gap")
@@ -58,6 +62,11 @@ def scenes(summary: Mapping[str, Any]) -> str:
         " ".join([f"- {of['scene']}: {about(of)}.", *at_speeds(of)]) for of in summary["scenes"]
     ]
     return "\n".join([table(head, rows), "", *told])
+
+
+def printed(summary: Mapping[str, Any]) -> str:
+    """What the terminal prints of the first scene."""
+    return f"```\n{terminal({'scenes': summary['scenes'][:1]}).strip()}\n```"
 
 
 def _peaks(summary: Mapping[str, Any]) -> Iterator[tuple[Mapping[str, Any], Mapping[str, Any]]]:
@@ -124,6 +133,7 @@ def _farthest(frequencies: Sequence[float], limit: Sequence[float]) -> str:
 TRADE = "results/experiments/trade/table.json"
 COMPUTED = (
     ("found", "results/summary.json", found),
+    ("printed", "results/summary.json", printed),
     ("verdicts", "results/paper/claims.json", verdicts),
     ("identified", "results/identify/reference/fits.json", identified.answer),
     ("summary", "results/summary.json", scenes),
@@ -157,7 +167,12 @@ COMPUTED = (
 )
 SETTINGS = {"blade": Blade, "given": GivenMatrices, "scene": Scene}  # block: what checks the file
 # kept beside the captions, for the pages
-PICTURES = ("figures/fig10b.png", "trade/trade.png", "trade/steps.png", "scaling/scaling.png")
+PICTURES = (
+    "reference/paper-e1/rub-0.350.png",
+    "trade/trade.png",
+    "trade/steps.png",
+    "scaling/scaling.png",
+)
 BLOCK = re.compile(
     r"(?P<begin><!-- (?P<name>\w+): [^\n]*-->\n).*?(?P<end><!-- /(?P=name) -->)", re.DOTALL
 )

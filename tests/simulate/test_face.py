@@ -19,25 +19,12 @@ from simulate.contact.kernel_file import kernel
 from simulate.contact.rod_law import rod_law
 from simulate.scene.tables import POINTS
 
-TOLD = {  # what the lines of a page are asked when they have run
-    "README.md": """
-print(sorted(runs.peaks()) == sorted(peaks(runs)), *runs.status.values, runs.scene.liner.law)
-print(march(scene, rom, 500.0).status)
-""",
-    "simulate/README.md": """
+TOLD = """
 saved, kept = (of.dataset.assign_attrs(date_created="") for of in (again, runs))
 print(one.status, saved.identical(kept), softer.liner.law.E, len(runs.speed))
 print(worn.status.item(), worn.scene.liner.law, float(worn.wear.max()) > 0)
-""",
-}
-SAID = {
-    "README.md": ["True ok ok ok E=2000000000.0 sigma_Y=1000000.0", "ok"],
-    "simulate/README.md": ["ok True 0.5 2", "ok E=2000000000.0 sigma_Y=1000000.0 True"],
-}
-OWN_LAW = {  # file that the lines write, and the law of theirs that it names
-    "README.md": ("out.nc", '"kind":"__main__:MyLaw"'),
-    "simulate/README.md": ("runs.nc", '"kind":"plastic"'),
-}
+"""
+SAID = ["ok True 0.5 2", "ok E=2000000000.0 sigma_Y=1000000.0 True"]
 
 
 class Linear(Law):
@@ -72,21 +59,18 @@ def test_the_modulus_of_a_law_that_yields_early_is_found():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("page", TOLD)
-def test_the_lines_of_a_page_run_in_an_empty_folder(coarse_rom, tmp_path, page):
-    section = (ROOT / page).read_text().split("\n## From Python\n")[1].split("\n## ")[0]
+def test_the_lines_of_the_page_run_in_an_empty_folder(coarse_rom, tmp_path):
+    page = (ROOT / "simulate/README.md").read_text()
+    section = page.split("\n## From Python\n")[1].split("\n## ")[0]
     blocks = re.findall(r"```python\n(.*?)```", section, re.DOTALL)
     coarse_rom.save(tmp_path / "rom-r.nc")
     (tmp_path / "scene.yaml").write_text(SCENE.replace(*EXPLICIT_TO_EXACT))
-    (tmp_path / "lines.py").write_text("\n".join([*blocks, TOLD[page]]))
+    (tmp_path / "lines.py").write_text("\n".join([*blocks, TOLD]))
     environment = {k: v for k, v in os.environ.items() if k != "PYTHONPATH"} | {"MPLBACKEND": "agg"}
     done = subprocess.run(
         [sys.executable, "lines.py"], cwd=tmp_path, env=environment, text=True, capture_output=True
     )
-    assert done.stdout.splitlines() == SAID[page], done.stderr
-    file, law = OWN_LAW[page]
-    with xr.open_dataset(tmp_path / file, engine="h5netcdf") as saved:
-        assert law in saved.attrs["scene"].replace(" ", "")
+    assert done.stdout.splitlines() == SAID, done.stderr
 
 
 def test_a_law_from_outside_is_marched_as_the_one_it_repeats(coarse_rom):

@@ -183,7 +183,7 @@ def targets(page):
         for word in words:
             if word in ("--report", "--config", "--cores", "--workflow-profile"):
                 next(words)
-            elif not word.startswith("-"):
+            elif not word.startswith("-") and "=" not in word:  # further values of --config
                 yield word
 
 

@@ -25,7 +25,7 @@ from workflow.figures import style
 
 FRAMES, RATE = 16, 16  # in a round, in a second
 PIXELS = 110  # per inch
-WRITERS = {".gif": "pillow", ".mp4": "ffmpeg"}
+WRITERS = {".gif": "pillow", ".png": "pillow", ".mp4": "ffmpeg"}
 DRAWN = 0.1  # of the casing's radius, one gap in the drawing
 SEEN = 3  # rounds of the displacement shown at a time
 TIP = {"color": style.BLACK, "linewidth": 1.6}
@@ -122,10 +122,10 @@ def _rub(
 
 
 @style.styled
-def animation(rub: Rub, title: str) -> FuncAnimation:
+def animation(rub: Rub, title: str, last: bool = False) -> FuncAnimation:
     """The casing around the blade; beside it the worn profile, and the tip's displacement.
 
-    ``title``: what was run, above the speed and the round.
+    ``title``: what was run, above the speed and the revolution; ``last``: the last moment alone.
     """
     drawn = style.figure(style.DOUBLE, 3.4)
     grid = drawn.add_gridspec(2, 2, width_ratios=(1, 1.3))
@@ -138,6 +138,7 @@ def animation(rub: Rub, title: str) -> FuncAnimation:
     rounds, samples = rub.u_r.shape
     each = max(samples // FRAMES, 1)
     moments = [(n, s) for n in range(rounds) for s in range(each - 1, samples, each)]
+    moments = moments[-1:] if last else moments
 
     ended = f", ended {rub.ended}" if rub.ended else ""
     above = rf"{title}, $\Omega/f_1(0)$ = {rub.speed:g}"
@@ -180,7 +181,7 @@ def _circle(depth: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def save(rub: Rub, title: str, path: str | Path) -> None:
-    """Write the animation in the format of the path's suffix.
+    """Write the animation in the format of the path's suffix; of a .png its last picture.
 
     Raises
     ------
@@ -191,7 +192,8 @@ def save(rub: Rub, title: str, path: str | Path) -> None:
     if writer not in writers.list():
         raise UserError(f"needs {writer} on PATH: install it, or ask for a .gif", file=path)
     with mpl.rc_context(style.RC), whole(path) as temporary:
-        animation(rub, title).save(temporary, writer=writer, fps=RATE, dpi=PIXELS)
+        shown = animation(rub, title, last=Path(path).suffix == ".png")
+        shown.save(temporary, writer=writer, fps=RATE, dpi=PIXELS)
 
 
 def _around(axes: Axes, rub: Rub) -> None:

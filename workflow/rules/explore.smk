@@ -49,7 +49,7 @@ rule rub:
         "results/{blade}/{scene}/logs/rub-{speed}-{format}.log",
     wildcard_constraints:
         speed=r"\d+(\.\d+)?",
-        format="gif|mp4",
+        format="gif|mp4|png",
     params:
         run="workflow.jobs.rub:animate",
         scene=settings_told,

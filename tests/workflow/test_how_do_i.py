@@ -1,0 +1,57 @@
+"""The recipes of the page: files are planned and run on the coarse blade, Python is pasted."""
+
+import re
+import sys
+
+import pytest
+import xarray as xr
+from projects import ROOT
+
+PAGE = (ROOT / "workflow/how-do-i.md").read_text()
+FILES = dict(re.findall(r"```yaml\n# (\S+)\n(.*?)```", PAGE, re.DOTALL))
+PYTHON = re.findall(r"```python\n(.*?)```", (ROOT / "README.md").read_text() + PAGE, re.DOTALL)
+NAMES = [path.split("/")[-1].removesuffix(".yaml") for path in FILES if "/scenes/" in path]
+OF_REFERENCE = ("my-run-up", "my-liner", "my-orbit", "my-casing")
+SCENES = f"scenes=[{', '.join(NAMES)}]"
+
+
+@pytest.fixture(scope="module")
+def with_files(project):
+    """The project, run once, with the files of the page."""
+    for path, text in FILES.items():
+        (project.folder / path).write_text(text)
+    return project
+
+
+def test_the_page_has_a_dozen_recipes():
+    assert len(re.findall(r"^## \.\.\. .*\?$", PAGE, re.MULTILINE)) == 12
+
+
+def test_files_of_the_page_are_planned(with_files):
+    planned = with_files.planned("--config", SCENES)
+    assert (planned["sweep"], planned["design"]) == (len(NAMES) - 1, 1)
+    assert with_files.planned("results/my-engine/rom-r.nc")["reduce"] == 1
+
+
+@pytest.mark.slow
+def test_files_of_the_page_give_results(with_files):
+    """All but the accuracy, which the coarse mesh cannot reach."""
+    sweeps = [f"results/reference/{name}/sweep.nc" for name in NAMES if name in OF_REFERENCE]
+    with_files.run(
+        *sweeps,
+        "results/hot/my-hot/sweep.nc",
+        "results/reference/my-table/design.csv",
+        "results/figures/design-my-table.png",
+    )
+
+
+@pytest.mark.parametrize("code", PYTHON, ids=range(len(PYTHON)))
+def test_python_of_the_page_runs_as_pasted(code, with_files):
+    said = with_files.call(sys.executable, "-W", "error", "-c", code)
+    for written in re.findall(r"\"(\w+\.(?:npz|csv|png|nc))\"", code):
+        assert (with_files.folder / written).is_file()
+    if "mine.nc" in code:
+        with xr.open_dataset(with_files.folder / "mine.nc", engine="h5netcdf") as saved:
+            assert "__main__:PerfectlyPlastic" in saved.attrs["scene"]
+    if "deepest wear" in code:
+        assert 0.1 < float(re.search(r"deepest wear ([\d.]+) µm", said)[1]) < 100
