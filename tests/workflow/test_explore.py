@@ -431,7 +431,7 @@ def test_what_was_not_recorded_is_said(response, browser, tmp_path):
     opened = Opened(browser, written(tmp_path, Response(kept, response.rom)))
     for name in RECORDED:
         assert "not recorded" in opened.page.text_content(f"#{name}"), name
-    assert "under explore" in opened.page.text_content("#still")
+    assert "set record: {motion: 3}" in opened.page.text_content("#still")
     opened.page.keyboard.press("ArrowRight")
     assert opened.is_at(1)
     assert opened.quiet()

@@ -78,6 +78,15 @@ def test_the_report_has_the_pages_to_explore_as_files(project):
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize(("explored", "pages"), [("peak-e1", 1), ("", 0)])
+def test_a_page_is_made_of_the_sweep_that_is_there(project, explored, pages):
+    """Of a scene without one before; none that was there is missed by its sweep."""
+    planned = project.planned("--config", f"explore=[{explored}]")
+    assert planned["explore"] == pages
+    assert not planned.keys() & {"check_scene", "sweep_block", "sweep", "answers"}
+
+
+@pytest.mark.slow
 def test_a_change_of_settings_is_shown_by_a_hash(touched):
     """Not by all values of the scene."""
     touched.edit("workflow/scenes/paper-e10.yaml", lambda scene: scene.update(rounds=5))

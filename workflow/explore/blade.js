@@ -119,7 +119,7 @@ function between(states, time) { // amplitudes at a time, in rounds
 
 function startBlade(codes) {
   if (!facts.motion) {
-    byId("still").textContent = "The blade in motion: name the scene under explore in the workflow's config.yaml.";
+    byId("still").textContent = "The blade in motion: set record: {motion: 3} in the scene.";
     return;
   }
   try {

@@ -252,7 +252,7 @@ const HISTORY = "Range of u_r at ξ = 1/16, whole run";
 
 function drawHistory(codes) {
   if (!has("history"))
-    return notRecorded("history", HISTORY, "name the scene under explore in the workflow's config.yaml");
+    return notRecorded("history", HISTORY, "set record: {motion: 3} in the scene");
   const flat = numbers(codes, "history", chosen);
   const windows = flat.length / 2;
   const rounds = range(windows, (i) => ((i + 0.5) * facts.rounds) / windows);
@@ -268,7 +268,7 @@ const SIGNAL = "Signal u_r at ξ = 1/16, last revolution";
 
 function drawSignal(codes) {
   if (!has("signal"))
-    return notRecorded("signal", SIGNAL, "name the scene under explore in the workflow's config.yaml");
+    return notRecorded("signal", SIGNAL, "set record: {motion: 3} in the scene");
   const u = scaled("length", numbers(codes, "signal", chosen));
   const at = range(u.length, (i) => i).filter((i) => !Number.isNaN(u[i])); // a state for each picture of the motion
   const trace = { x: at.map((i) => facts.signal_time[i]), y: at.map((i) => u[i]), mode: "lines", line: { color: "#000", width: 1 } };

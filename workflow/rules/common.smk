@@ -115,8 +115,6 @@ def scene_settings(name):
             f"workflow/config.yaml: explore: {name!r}: its page has one gap for all speeds: allowed are "
             f"scenes with `clearance: {{at: running}}`"
         )
-    if name in EXPLORED and not scene.record.motion:
-        scene = scene.but(record={"motion": SHOWN_MODE})
     if name in EXPLORED and scene.design:
         raise WorkflowError(
             f"workflow/config.yaml: explore: {name!r} is a design: allowed are sweeps"
@@ -298,8 +296,16 @@ class Told(dict):
 
 
 def settings_told(wildcards):
-    """All settings of the scene."""
-    return Told(SCENES[wildcards.scene].model_dump(mode="json"))
+    """All settings of the scene.
+
+    Its sweep keeps the motion that a page to explore shows, with or without a page: one that is
+    asked for later needs no second sweep.
+    """
+    scene = SCENES[wildcards.scene]
+    without_page = scene.design or scene.clearance.at_rest or scene.blade not in MESHED
+    if not (without_page or scene.until or scene.record.motion):
+        scene = scene.but(record={"motion": SHOWN_MODE})
+    return Told(scene.model_dump(mode="json"))
 
 
 def operating_of(blade):
