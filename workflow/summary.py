@@ -99,13 +99,16 @@ type Row = dict[str, Any]
 type Stress = dict[float, tuple[float, float | None]]  # by speed over f1(0): largest, its error, Pa
 
 
-def numbers(files: Any, operating: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
+def numbers(
+    files: Any, operating: Mapping[str, Mapping[str, Any]], others: Sequence[str] = ()
+) -> dict[str, Any]:
     """The summary of ``files.answers``, one for each scene, with their stresses.
 
     These are of ``files.stress``, ``peak.json``, and of ``files.pages``, ``stress.json``; margins
     are of ``files.roms``, the model of each scene.
 
-    ``operating``: as of ``simulate.sweeps.peak.critical``, by blade.
+    ``operating``: as of ``simulate.sweeps.peak.critical``, by blade; ``others``: scenes that have
+    results and are left out, for they may be of other settings or code.
     """
     from rom.model import Rom  # slow imports, which Snakemake does without
     from simulate.sweeps.peak import critical
@@ -122,7 +125,7 @@ def numbers(files: Any, operating: Mapping[str, Mapping[str, Any]]) -> dict[str,
         )
         for of, rom in zip(map(read_json, files.answers), files.roms, strict=True)
     ]
-    return {"scenes": scenes}
+    return {"scenes": scenes, "others": list(others)}
 
 
 def _scene(of: Mapping[str, Any], stress: Stress, found: Mapping[str, Any]) -> dict[str, Any]:
@@ -236,7 +239,15 @@ def table(summary: Mapping[str, Any]) -> str:
         tables = [*shown(scene), (margins.HEADS, margins.table(scene["margins"]))]
         parts += [line for of in tables if of[1] for line in (markdown.table(*of), "")]
         parts += [*notes(scene), ""]
-    return "\n".join([*parts, meaning()]) + "\n"
+    return "\n".join([*parts, *left_out(summary), meaning()]) + "\n"
+
+
+def left_out(summary: Mapping[str, Any]) -> list[str]:
+    """A line on scenes that have results and are not in the summary, if there are any."""
+    return [
+        f"Not in this summary, but with results: {', '.join(summary['others'])}. It has those of "
+        "`scenes` alone.\n"
+    ] * bool(summary["others"])
 
 
 def meaning() -> str:
@@ -256,7 +267,7 @@ def terminal(summary: Mapping[str, Any]) -> str:
     for scene in summary["scenes"]:
         lines = [line for of in shown(scene) for line in (*columns(*of), "")]
         parts += ["", f"{scene['scene']}: {about(scene)}", *lines, *notes(scene)]
-    return "\n".join(parts)
+    return "\n".join([*parts, *left_out(summary)])
 
 
 def panel(

@@ -271,11 +271,10 @@ def fault_of_blade(scene: Scene, blade: AnyBlade) -> Fault | None:
     highest, unit = float(speeds.given.max()), speeds.in_rad_s(f1=nan)
     if speeds.over_f1 is not None or top is None or highest * unit <= top * (1 + 1e-12):
         return None
-    allowed = top / unit
-    slip = "; rpm are speeds.rpm" if speeds.rad_s and highest / RPM <= allowed else ""
+    slip = "; rpm are speeds.rpm" if speeds.rad_s and highest / RPM <= top else ""
     return Fault(
-        f"allowed up to {allowed:.6g}, the highest speed of blade {scene.blade}{slip}",
+        f"allowed up to {top / unit:.6g}, the highest speed of blade {scene.blade}{slip}",
         f"speeds.{speeds.unit}",
         highest,
-        {"le": allowed},
+        {"le": top / unit},
     )

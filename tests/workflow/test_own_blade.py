@@ -78,6 +78,7 @@ def test_the_page_leads_to_a_summary(followed):
     folder, said = followed
     of_step, of_inp = (text for line, text in said.items() if "--config" in line)
     assert "Design speed 5600 rpm" in of_step and "Summary: results/summary.md" in of_step
+    assert "Not in this summary, but with results: rub. " in of_inp and "Not in" not in of_step
     assert "Not known: error of the mesh" in of_inp  # a mesh of another program
     rows = list(csv.DictReader(StringIO((folder / "results/summary.csv").read_text())))
     assert {row["scene"] for row in rows} == {"rub-meshed"}

@@ -115,6 +115,15 @@ def test_a_peak_in_units_of_engines(summed):
     assert (cells(ending)[1], read_csv(ending)["speed +- (rpm)"]) == ("4200 (end)", "")
 
 
+def test_scenes_with_results_that_are_left_out_are_named(summed):
+    """One state of the code only: theirs may be of another."""
+    found = summed()
+    assert "Not in this summary" not in summary.terminal(found) + summary.table(found)
+    left = found | {"others": ["rub", "peak-e1"]}
+    for text in (summary.terminal(left), summary.table(left)):
+        assert "Not in this summary, but with results: rub, peak-e1. " in text
+
+
 def test_what_is_not_known_is_said(summed):
     doubt = {"basis": 1e-4, "mesh": None}
     numbers = {name: NUMBERS[name] for name in ("amplitude", "force")}

@@ -329,6 +329,12 @@ def of_scenes(pattern):
     return [pattern.format(blade=scene.blade, scene=name) for name, scene in SWEEPS.items()]
 
 
+def others_with_results():
+    """Scenes that are there, have results of the summary, and are not to be delivered."""
+    found = {path.parent.name for path in Path("results").glob("*/*/answers.json")}
+    return sorted(found & SCENES.keys() - SWEEPS.keys())
+
+
 def of_designs():
     """The tables of every design to deliver."""
     return [

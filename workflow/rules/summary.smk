@@ -47,7 +47,10 @@ rule summary:
     localrule: True
     params:
         run="workflow.summary:numbers",
-        given={"operating": {blade: operating_of(blade) for blade in BLADES}},
+        given=lambda wildcards: {
+            "operating": {blade: operating_of(blade) for blade in BLADES},
+            "others": others_with_results(),
+        },
     message:
         "Summary of the run"
     script:
