@@ -10,6 +10,7 @@ from geometry.project import SettingsError
 from simulate.contact.rod_law import rod_law
 from simulate.contact.strips import FLAT, Tip, largest_over_window
 from simulate.contact.travelling import waves
+from simulate.scene.casing import Harmonic
 from simulate.scene.law import numbers_of
 from simulate.scene.laws.rigid import Rigid
 
@@ -78,6 +79,24 @@ def test_a_rigid_blade_wears_the_envelope_over_its_passages(scheme, name):
     most = 1e-4 if name == "with the blade" else 2e-4
     away = np.s_[2:-2]  # from where the blade begins and ends
     assert abs(worn - exact)[away].max() < most * exact.max()
+
+
+def test_an_orbit_with_the_blade_is_order_0_to_it():
+    """Of a synchronous unbalance; off by half the footprint's angle times the tangent of 0.3."""
+    nu, steps, length, phase = 600, 1200, 2.6, 0.3
+    turning, standing = (
+        march_exact(
+            travelling(nu, steps, length, 0.1, [(0.8, order, phase, speed)]),
+            *(*RIGID, steps, [0.0], [0.0]),
+            rounds=2,
+        ).eps_p[0, 2:-2]
+        for order, speed in ((1, 1.0), (0, 0.0))
+    )
+    assert standing.min() > 0
+    most = 0.8 * np.sin(phase) * np.pi * length / nu * E / (E + K)
+    assert abs(turning - standing).max() * THICKNESS < 1.1 * most
+    unbalance = Harmonic(order=0, amplitude_m=4e-5, phase_deg=60)
+    assert unbalance.inward(np.zeros(3), gap=1.0) == pytest.approx(2e-5)
 
 
 @pytest.mark.parametrize("scheme", SCHEMES)
