@@ -28,12 +28,11 @@ def without_sources(record):
 
 
 def without_traceback(record):
-    """Of an input function that refuses what was asked for, leave the sentence alone."""
-    found = re.search(
-        r"^InputFunctionException.*\n +WorkflowError:\n +(.*)", str(record.msg), re.DOTALL
-    )
-    if found:
-        record.msg = found[1].partition("\nWildcards:")[0]
+    """Of what is refused of files or requests of users, leave the sentences alone."""
+    text = str(record.msg)
+    if re.match(r"WorkflowError in file|InputFunctionException[\s\S]*?\n +WorkflowError:", text):
+        around = r"^[\s\S]*?WorkflowError.*\n *|\nWildcards:[\s\S]*|\n +File \"[\s\S]*"
+        record.msg = re.sub(around, "", text)
     return True
 
 
