@@ -245,8 +245,8 @@ def table(summary: Mapping[str, Any]) -> str:
 def left_out(summary: Mapping[str, Any]) -> list[str]:
     """A line on scenes that have results and are not in the summary, if there are any."""
     return [
-        f"Not in this summary, but with results: {', '.join(summary['others'])}. It has those of "
-        "`scenes` alone.\n"
+        f"Not in this summary, but with results: {', '.join(summary['others'])}. The summary holds "
+        "the scenes of `scenes`.\n"
     ] * bool(summary["others"])
 
 
