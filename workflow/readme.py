@@ -66,7 +66,7 @@ def scenes(summary: Mapping[str, Any]) -> str:
 
 def printed(summary: Mapping[str, Any]) -> str:
     """What the terminal prints of the first scene."""
-    return f"```\n{terminal({'scenes': summary['scenes'][:1]}).strip()}\n```"
+    return f"```\n{terminal({'scenes': summary['scenes'][:1], 'others': []}).strip()}\n```"
 
 
 def _peaks(summary: Mapping[str, Any]) -> Iterator[tuple[Mapping[str, Any], Mapping[str, Any]]]:

@@ -7,6 +7,9 @@ import pytest
 import xarray as xr
 from projects import ROOT
 
+from geometry.project import read_json
+from workflow.readme import printed
+
 PAGE = (ROOT / "workflow/how-do-i.md").read_text()
 FILES = dict(re.findall(r"```yaml\n# (\S+)\n(.*?)```", PAGE, re.DOTALL))
 PYTHON = re.findall(r"```python\n(.*?)```", (ROOT / "README.md").read_text() + PAGE, re.DOTALL)
@@ -21,6 +24,12 @@ def with_files(project):
     for path, text in FILES.items():
         (project.folder / path).write_text(text)
     return project
+
+
+def test_the_first_page_shows_what_the_terminal_prints_of_the_first_scene(project):
+    shown = printed(read_json(project.folder / "results/summary.json"))
+    assert shown.startswith("```\npaper-e1: blade reference") and "paper-e10" not in shown
+    assert re.search(r"^EO +rpm ", shown, re.MULTILINE)
 
 
 def test_the_page_has_a_dozen_recipes():
