@@ -38,6 +38,9 @@ DENSITY = 20.0, 25000.0
 # this range that leads out of it.
 WAVE_SPEED = 1000.0, 30000.0
 LARGEST = 1e30  # on the diagonal, in any unit: Abaqus constrains a direction by 1e36
+# What is 1 to 1e-7: the speed of a spin softening over the given one, without softening 0, in Hz 6;
+# the mass where K is not zero over all, with nodes in another order 0.3 and less.
+AS_SAID = 0.9, 1.1
 CHANGE = 1e-9, 0.5  # blades of this project have 4e-4 to 0.02
 
 # file, what, value, allowed, remedy
@@ -159,7 +162,7 @@ def _of_stiffness(fom: Matrices, of: FullMatrices) -> list[Measure]:
     x, K = fom.coordinates, fom.K[0]
     turned = np.cross(np.eye(3)[:, None], x - x.mean(axis=0)).reshape(3, -1).T
     moved = np.tile(np.eye(3), (len(x), 1))
-    forces, alone = K @ turned, abs(K) @ abs(turned)
+    forces, alone, inertia = K @ turned, abs(K) @ abs(turned), fom.M @ moved[:, :2]
     r = np.hypot(x[:, 0], x[:, 1])
     away = np.repeat(r > np.median(r), 3)
     along = (r - fom.camber[:, 0].mean()) / fom.span + 1  # 0 at the hub, 1 at the tip
@@ -195,6 +198,13 @@ def _of_stiffness(fom: Matrices, of: FullMatrices) -> list[Measure]:
             WAVE_SPEED,
             "check the units of K (N/m) and M (kg), and hub_radius_m",
         ),
+        (
+            of.M,
+            "mass between DoFs that K couples, over that between any",
+            abs(fom.M).multiply(fom.K[0].astype(bool)).sum() / abs(fom.M).sum(),
+            AS_SAID,
+            "rows of M and K must be in one order",
+        ),
         *(
             (
                 of.K[speed],
@@ -202,6 +212,20 @@ def _of_stiffness(fom: Matrices, of: FullMatrices) -> list[Measure]:
                 abs(spun - K).max() / abs(K).max(),
                 CHANGE,
                 "check the unit (N/m), the order of DoFs, and that it is prestressed",
+            )
+            for speed, spun in zip(fom.speeds[1:], fom.K[1:], strict=True)
+        ),
+        *(
+            (
+                of.K[speed],
+                "speed that its spin softening is of, over the given one",
+                np.sqrt(
+                    max(-((spun @ moved[:, :2]) * inertia)[away].sum(), 0.0)
+                    / (inertia[away] ** 2).sum()
+                )
+                / speed,  # it takes speed squared times the inertia of x and y from K
+                AS_SAID,
+                "check the speed (rad/s, not Hz or rpm), and that K has the softening",
             )
             for speed, spun in zip(fom.speeds[1:], fom.K[1:], strict=True)
         ),

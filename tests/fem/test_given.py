@@ -178,6 +178,17 @@ def other(fom, hub):
         "kN/mm at speed": ({"K1": K / 1e6}, {}, "K1.npz: change from K at rest, .*: 1, allowed"),
         "not symmetric": ({"K1": fom.K[1] + skew}, {}, "K1.npz: not symmetric"),
         "at speed as at rest": ({"K1": K}, {}, "K1.npz: change .*: 0, allowed .* prestressed"),
+        "without spin softening": (
+            {"K1": fom.K[1] + 325.0**2 * diags(np.tile([1.0, 1.0, 0.0], len(x))) @ M},
+            {},
+            "K1.npz: speed that its spin softening is of, over the given one: 0, allowed .*rad/s",
+        ),
+        "of twice the speed": ({"K1": fom.K[-1]}, {}, "K1.npz: speed .* given one: 2, allowed"),
+        "nodes by radius in M": (
+            {"M": ordered(M, dof[np.argsort(np.hypot(x[:, 0], x[:, 1]))].ravel())},
+            {},
+            "M.npz: mass between DoFs that K couples, .*: 0.[0-4].*one order",
+        ),
         "x of all first": (
             {"M": ordered(M, blocks), "K0": ordered(K, blocks)},
             {},
@@ -231,7 +242,8 @@ def other(fom, hub):
 
 OTHERS = (
     "t, N/mm", "t, N/mm, mm", "slinch, lbf/in, in", "cm", "N/mm", "t", "g", "kN/mm at speed",
-    "at speed as at rest", "x of all first", "x of all first in K", "z, x, y", "nodes by radius",
+    "at speed as at rest", "without spin softening", "of twice the speed", "nodes by radius in M",
+    "x of all first", "x of all first in K", "z, x, y", "nodes by radius",
     "left-handed", "hysteretic", "not symmetric", "without mass", "hub", "hub in mm", "rpm",
     "trailing edge first", "patches reversed", "tangential first", "by direction",
     "against rotation", "turned camber",
