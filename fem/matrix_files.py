@@ -15,7 +15,7 @@ from scipy.sparse import csr_matrix, diags, load_npz
 from geometry.given import Check, failed
 from geometry.project import UserError, about, number, read_text, require_file
 
-DIRECTIONS = 16  # more than a node has
+DIRECTIONS = 100  # more than a node has
 
 
 class GivenError(UserError):
@@ -61,8 +61,8 @@ def read_matrix(path: Path, letter: str) -> FileMatrix:
         require_file(path, READERS)
     try:
         found = READERS[path.suffix.lower()](path, letter)
-    except GivenError:
-        raise
+    except GivenError as error:
+        raise error.within(path) from None
     except Exception as error:  # readers raise various exceptions for damaged files
         raise GivenError(
             f"cannot be read as {path.suffix} ({error!r}): is it cut short?", file=path
@@ -89,7 +89,9 @@ def _mtx(path: Path, letter: str) -> FileMatrix:
         return FileMatrix(csr_matrix(mmread(path, spmatrix=False)))
     *places, values = _columns(path, "," if "," in head else None)
     if len(places) == 2:
-        return FileMatrix(_whole(csr_matrix((values, np.array(places, dtype=int) - 1))))
+        return FileMatrix(
+            _whole(csr_matrix((values, np.array(places, dtype=int) - 1)), len(values))
+        )
     require(
         path,
         (
@@ -106,7 +108,7 @@ def _calculix(path: Path, letter: str) -> FileMatrix:
     with about(dof, GivenError):
         names = read_text(dof, most=None).split()
     i, j, values = _columns(path)
-    A = _whole(csr_matrix((values, (i.astype(int) - 1, j.astype(int) - 1))))
+    A = _whole(csr_matrix((values, (i.astype(int) - 1, j.astype(int) - 1))), len(values))
     require(
         path,
         (
@@ -171,11 +173,16 @@ def _of_labels(labels: NDArray, values: NDArray) -> FileMatrix:
     codes = DIRECTIONS * labels[:, ::2] + labels[:, 1::2]
     rows, where = np.unique(codes, return_inverse=True)
     A = csr_matrix((values, where.reshape(-1, 2).T), (len(rows), len(rows)))
-    return FileMatrix(_whole(A), np.column_stack(divmod(rows, DIRECTIONS)))
+    return FileMatrix(_whole(A, len(values)), np.column_stack(divmod(rows, DIRECTIONS)))
 
 
-def _whole(A: csr_matrix) -> csr_matrix:
-    """The matrix, of which a file may hold one triangle: no place and its mirror image."""
+def _whole(A: csr_matrix, lines: int = 0) -> csr_matrix:
+    """The matrix, of which a file may hold one triangle: no place and its mirror image.
+
+    Entries of one place are summed in ``A``; so many ``lines`` must each have a place of its own.
+    """
+    if A.nnz < lines:
+        raise GivenError("names an entry twice: one matrix a file, of one step or subcase")
     places = A.astype(bool)
     both = places.multiply(places.T).nnz - np.count_nonzero(A.diagonal())
     return A if both else csr_matrix(A + A.T - diags(A.diagonal()))

@@ -266,6 +266,13 @@ def test_one_triangle_needs_its_word_in_matrix_market_alone(of_calculix):
         ("K.full", "", "cannot be read|ansys-mapdl-reader"),
         ("K.pch", "DMIG*   MAAX\n", "begins with K, has 0"),
         ("K.mtx", "1, 2, 3, 4\n", "4 numbers a line, needs 5"),
+        (
+            "K.pch",
+            2 * f"DMIG*   {'K':16}{1:16d}{1:16d}\n*       {1:16d}{1:16d}1.0\n",
+            "K.pch: .*twice",
+        ),
+        ("K.mtx", 2 * "1,1, 1,1, 2.0\n", "K.mtx: names an entry twice: one matrix a file"),
+        ("K.mtx", 2 * "1 1 2.0\n", "K.mtx: names an entry twice"),
         ("K.mtx", "1,1, 1,1, nan\n", "not finite real numbers"),
         ("K.sti", "1 1 2.0\n", "K.dof: cannot be read"),
     ],
@@ -273,6 +280,17 @@ def test_one_triangle_needs_its_word_in_matrix_market_alone(of_calculix):
 def test_file_of_another_kind_is_refused(file, text, fault, tmp_path):
     (tmp_path / file).write_text(text)
     refused(GivenError, read_matrix, tmp_path / file, "K", match=fault)
+
+
+def test_directions_are_those_of_the_file(tmp_path):
+    """Also numbers that no node of a solid has."""
+    (tmp_path / "K.mtx").write_text("5,17, 5,17, 2.0\n")
+    assert read_matrix(tmp_path / "K.mtx", "K").rows.tolist() == [[5, 17]]
+
+
+def test_names_of_rows_are_among_the_files_that_are_watched():
+    files = map(str, settings({"file": "b.inp", "unit": "mm"} | ENDS, "A.MAS", "B.sti").files)
+    assert {"A.dof", "B.dof"} <= {*files}
 
 
 class Job(NamedTuple):
