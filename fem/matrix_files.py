@@ -84,7 +84,7 @@ def _npz(path: Path, letter: str) -> FileMatrix:
 def _mtx(path: Path, letter: str) -> FileMatrix:
     """Matrix Market, or Abaqus's rows: node, direction, twice, and value; or row, column, value."""
     with open(path) as file:
-        head = next((line for line in file if not line.startswith("**")), "")
+        head = next((line for line in file if line.strip() and line[0] != "*"), "")
     if head.startswith("%%MatrixMarket"):
         return FileMatrix(csr_matrix(mmread(path, spmatrix=False)))
     *places, values = _columns(path, "," if "," in head else None)
@@ -121,8 +121,8 @@ def _calculix(path: Path, letter: str) -> FileMatrix:
 
 def _dmig(path: Path, letter: str) -> FileMatrix:
     """The matrix of a punch file whose name begins with a letter; fields have 16 characters."""
-    entries = []
-    for line in read_text(path, most=None).splitlines():
+    entries, line = [], ""
+    for line in read_text(path, most=None).splitlines(keepends=True):
         first, second, third, *_ = (line[i : i + 16].strip() for i in range(8, 72, 16))
         if line.startswith("DMIG*"):
             name, *column = first, second, third
@@ -135,6 +135,7 @@ def _dmig(path: Path, letter: str) -> FileMatrix:
             len(names) == 1,
             f"needs one matrix DMIG* whose name begins with {letter}, has {len(names)}",
         ),
+        (line.endswith("\n"), "its last line has no end: is the file cut short?"),
     )
     labels, values = zip(*((of[1:5], of[5]) for of in entries if of[0] in names), strict=True)
     return _of_labels(np.array(labels, dtype=int), np.array(values))

@@ -271,6 +271,8 @@ def test_one_triangle_needs_its_word_in_matrix_market_alone(of_calculix):
             2 * f"DMIG*   {'K':16}{1:16d}{1:16d}\n*       {1:16d}{1:16d}1.0\n",
             "K.pch: .*twice",
         ),
+        ("K.pch", f"DMIG*   {'K':16}{1:16d}{1:16d}\n*       {1:16d}{1:16d}1.0D+0", "cut short"),
+        ("K.pch", "", "begins with K, has 0"),
         ("K.mtx", 2 * "1,1, 1,1, 2.0\n", "K.mtx: names an entry twice: one matrix a file"),
         ("K.mtx", 2 * "1 1 2.0\n", "K.mtx: names an entry twice"),
         ("K.mtx", "1,1, 1,1, nan\n", "not finite real numbers"),
@@ -286,6 +288,11 @@ def test_directions_are_those_of_the_file(tmp_path):
     """Also numbers that no node of a solid has."""
     (tmp_path / "K.mtx").write_text("5,17, 5,17, 2.0\n")
     assert read_matrix(tmp_path / "K.mtx", "K").rows.tolist() == [[5, 17]]
+
+
+def test_lines_before_the_rows_are_left_out(tmp_path):
+    (tmp_path / "K.mtx").write_text("** rows\n\n*MATRIX\n5,1, 5,1, 2.0\n")
+    assert read_matrix(tmp_path / "K.mtx", "K").rows.tolist() == [[5, 1]]
 
 
 def test_names_of_rows_are_among_the_files_that_are_watched():
