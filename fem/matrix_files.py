@@ -121,14 +121,15 @@ def _calculix(path: Path, letter: str) -> FileMatrix:
 
 def _dmig(path: Path, letter: str) -> FileMatrix:
     """The matrix of a punch file whose name begins with a letter; fields have 16 characters."""
-    entries, line = [], ""
+    entries, name, line = [], "", ""
     for line in read_text(path, most=None).splitlines(keepends=True):
         first, second, third, *_ = (line[i : i + 16].strip() for i in range(8, 72, 16))
-        if line.startswith("DMIG*"):
-            name, *column = first, second, third
-        elif line.startswith("*"):
+        if not line.startswith("*"):  # other cards, as GRID*, have such lines too
+            name, *column = (first, second, third) if line.startswith("DMIG*") else ("",)
+        elif name:
             entries.append((name, *column, first, second, number(third)))
-    names = {name for name, *_ in entries if name.startswith(letter)}
+    # K4 is structural damping
+    names = {name for name, *_ in entries if name.startswith(letter) and name[1:2] != "4"}
     require(
         path,
         (
@@ -163,9 +164,13 @@ READERS: dict[str, Callable[[Path, str], FileMatrix]] = {
 
 def _columns(path: Path, delimiter: str | None = None) -> NDArray[np.float64]:
     """Columns (k, n) of numbers; the last line must have its end, else a number may lack digits."""
-    with open(path, "rb") as file:
-        file.seek(-1, 2)
-        require(path, (file.read() == b"\n", "its last line has no end: is the file cut short?"))
+    require(
+        path,
+        (
+            path.read_bytes().endswith(b"\n"),
+            "its last line has no end: is the file cut short?",
+        ),
+    )
     return np.loadtxt(path, delimiter=delimiter, comments="*", ndmin=2).T
 
 

@@ -30,8 +30,6 @@ SYMMETRIC = 1e-9  # of the largest entry: difference of symmetric ones
 OFF_LINE = 0.1  # of the chord: distance of an interface point from the camber line at its xi
 MOST_ARC = pi / 2  # rad, of the tip; those of blades take up to 0.7
 
-NAMED = (".sti", ".mas")  # the file .dof beside them names their rows
-
 File = Annotated[str, Field(min_length=1)]
 
 
@@ -142,7 +140,8 @@ class GivenMatrices(SettingsFile):
         """All files, from the folder of the blade's YAML; ``K`` by ascending speed."""
         of = self.full_matrices
         matrices = [PurePath(file) for file in (of.M, *(of.K[speed] for speed in self.speeds))]
-        rows = [file.with_suffix(".dof") for file in matrices if file.suffix.lower() in NAMED]
+        # of CalculiX the names of the rows are in a file beside
+        rows = [f.with_suffix(".dof") for f in matrices if f.suffix.lower() in (".sti", ".mas")]
         others = (of.mesh_file and of.mesh_file.file, of.nodes, of.tip, of.S, of.camber)
         return list(dict.fromkeys([*matrices, *rows, *(PurePath(file) for file in others if file)]))
 

@@ -48,8 +48,11 @@ def write_coordinate(folder, M, K, rows):
 
 def write_dmig(folder, M, K, rows):
     """A punch file with both, one triangle each, in ten digits."""
-    lines = []
-    for name, A in ("KAAX", K), ("MAAX", M):
+    lines = [
+        "GRID*                  1                             4.0           0.0",
+        "*           0.0",
+    ]
+    for name, A in ("KAAX", K), ("K4AAX", 0.02 * K), ("MAAX", M):
         lines.append(f"DMIG    {name:8}{0:8d}{6:8d}{2:8d}{0:8d}")
         lower = triu(A).tocsr()
         for column in range(A.shape[0]):
