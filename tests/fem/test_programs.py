@@ -377,16 +377,21 @@ def test_between_its_speeds_the_reduced_model_is_calculix(straight, coarse_blade
 @needs_ccx
 @pytest.mark.parametrize("kind", ["C3D20R", "C3D15"])
 def test_bricks_of_calculix_keep_its_frequencies(kind, coarse_blade, tmp_path):
-    """Split for the tip alone; M and K stay those of bricks, with fewer points, and of wedges."""
+    """Split for the tip alone; M and K stay those of bricks, with fewer points, and of wedges.
+
+    Measured with the default basis: 9e-6.
+    """
     bricks = Bricks(coarse_blade.sections, 10, 1, 20)
     points, nodes, groups = bricks.parts({"C3D20R": "hexahedron", "C3D15": "wedge"}[kind], True)
     job = run_jobs(coarse_blade, kind, 1e-3 * points, nodes, groups, tmp_path)
     given, fom = job.read()
-    rom, _ = reduce(fom, given.basis.model_copy(update={"rank_tolerance": 1e-5}), "r")
+    finer = given.basis.model_copy(update={"rank_tolerance": 1e-5})
+    roms = {share: reduce(fom, of, "r")[0] for share, of in ((1e-6, finer), (2e-5, given.basis))}
     for speed in SPEEDS:
         theirs = calculix.frequencies(job.cells, coarse_blade.material, speed).frequencies
-        found = rom.modes(speed)[0][:10] / (2 * np.pi)
-        np.testing.assert_allclose(found, theirs, rtol=1e-6)
+        for share, rom in roms.items():
+            found = rom.modes(speed)[0][:10] / (2 * np.pi)
+            np.testing.assert_allclose(found, theirs, rtol=share)
 
 
 def test_files_of_ansys_give_its_frequencies():
