@@ -38,12 +38,12 @@ DENSITY = 20.0, 25000.0
 # this range that leads out of it.
 WAVE_SPEED = 1000.0, 30000.0
 LARGEST = 1e30  # on the diagonal, in any unit: Abaqus constrains a direction by 1e36
-# What is 1 to 1e-7: the speed of a spin softening over the given one, without softening 0, in Hz 6;
+# Equal to 1 to 1e-7: speed of a spin softening over the given one, 0 without softening, 6 in Hz;
 # the mass where K is not zero over all, with nodes in another order 0.3 and less.
 AS_SAID = 0.9, 1.1
 CHANGE = 1e-9, 0.5  # blades of this project have 4e-4 to 0.02
 
-# file, what, value, allowed, remedy
+# file, quantity, value, allowed, remedy
 type Measure = tuple[str, str, float, tuple[float, float], str]
 
 

@@ -74,7 +74,7 @@ class Matrices(Constants, Stored):
 
     @property
     def top_speed(self) -> float:
-        """Omega_m, rad/s: the last of the speeds, or the one told for matrices at rest alone."""
+        """Omega_m, rad/s: the last of the speeds, or the given one for matrices at rest alone."""
         return float(self.speeds[-1] or self.provenance.settings["max_speed_rad_s"])
 
     @classmethod

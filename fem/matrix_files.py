@@ -23,7 +23,7 @@ class GivenError(UserError):
 
 
 class FileMatrix(NamedTuple):
-    """A matrix, and what its rows are."""
+    """A matrix, and the meaning of its rows."""
 
     A: csr_matrix
     rows: NDArray[np.int64] | None = None  # (n, 2), number of node and direction from 1, if known

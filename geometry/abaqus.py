@@ -33,7 +33,7 @@ ELSEWHERE = {  # options that change the rows of a card, or take their place
 }
 INCLUDES = "has {}, whose file would not be watched: export one file"  # by Snakemake
 READ = ("NODE", "ELEMENT", "NSET", "ELSET", "SURFACE")
-# whether what follows them is the assembly's own
+# whether the cards after them are the assembly's own
 OUTSIDE = {"ASSEMBLY": True, "INSTANCE": False, "END INSTANCE": True, "END ASSEMBLY": False}
 REFUSED = {"INCLUDE": INCLUDES} | dict.fromkeys(
     ("NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM"),
@@ -161,7 +161,7 @@ def _elements(cards: list[Card], nodes: Collection[int]) -> _Elements:
 
 
 def _cards(path: Path) -> list[Card]:
-    """All cards, the first with what stands before them.
+    """All cards, the first with the rows before them.
 
     Of CalculiX also those that end with a comma, which Abaqus takes for "goes on".
     """
@@ -185,7 +185,7 @@ def _options(text: str) -> dict[str, str]:
 
 
 def _of_part(cards: Iterable[Card]) -> Iterator[Card]:
-    """Cards without what an assembly defines of its own: it numbers its reference points anew."""
+    """Cards without an assembly's own definitions: it numbers its reference points anew."""
     outside = False
     for card in cards:
         outside = OUTSIDE.get(card.keyword, outside)

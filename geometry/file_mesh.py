@@ -28,7 +28,7 @@ APART = 0.01  # relative difference of which is warned
 
 @dataclass(frozen=True)
 class FileMaterial:
-    """An elastic material in the units of its file; None for what the file does not say."""
+    """An elastic material in the units of its file; None for values that the file does not give."""
 
     name: str
     young_modulus: float | None = None
@@ -74,7 +74,7 @@ class FileMesh:
     face_groups: dict[str, NDArray] = field(default_factory=dict)  # corner nodes (k, 3), k may be 0
     materials: tuple[FileMaterial, ...] = ()  # of its cells, where the file names them
     first_order: bool = False  # its cells have no middle nodes in the file
-    made: str = ""  # of what its tetrahedra are, where the file has other cells
+    made: str = ""  # source of its tetrahedra, where the file has other cells
 
     @property
     def groups(self) -> set[str]:
@@ -181,7 +181,7 @@ def _held(solids: Sequence[Solids]) -> str:
 
 
 def require_all(what: str, declared: int | None, read: int, remedy: str) -> None:
-    """Refuse a file of which readers leave out a part of what it declares; None: it does not say.
+    """Refuse a file whose readers leave out declared parts; None: it declares no number.
 
     Raises
     ------

@@ -28,7 +28,7 @@ def to_blade(
 ) -> NDArray[np.float64]:
     """Points (n, 3) of a file, in its unit and axes, in the blade's frame, m.
 
-    ``remedy``: what the message recommends if the length is out of range.
+    ``remedy``: advice of the message if the length is out of range.
 
     Raises
     ------

@@ -1,8 +1,8 @@
 """Ten-node tetrahedra of a CAD solid by gmsh, as good as its faces allow, and its volume.
 
 Round edges smaller than an element are the difficulty. Cells there may turn inside out when their
-middle nodes are placed on the faces: these are moved along the faces, or off them. What the mesh
-then misses is known, since the volume is integrated over the faces of the CAD themselves.
+middle nodes are placed on the faces: these are moved along the faces, or off them. The volume
+that the mesh then misses is known, from an integral over the faces of the CAD themselves.
 OpenCASCADE's own volume is 0.1 to 3 % off where they are lofted through splines.
 """
 
@@ -125,7 +125,7 @@ def _periods(face: int) -> tuple[NDArray, NDArray]:
 def _flux(x: NDArray, normal: NDArray) -> NDArray:
     """Of (0, y, z) / 2, whose divergence is one.
 
-    Root and tip, across the radius, add next to nothing to it: what facets miss of their area,
+    Root and tip, across the radius, add next to nothing to it: the area that facets miss,
     along their outline, is not in the integral over the face.
     """
     return (x[..., 1:] * normal[..., 1:]).sum(axis=-1) / 2

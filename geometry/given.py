@@ -192,7 +192,7 @@ def failed(*checks: Check) -> list[str]:
 
 
 def tip_checks(camber: NDArray[np.float64], span: float, top_speed: float) -> list[Check]:
-    """Check what each blade has in its camber line, lengths and highest speed.
+    """Check the camber line, lengths and highest speed, which each blade has.
 
     Parameters
     ----------

@@ -57,7 +57,7 @@ class MeshSummary:
     def line(self) -> str:
         """Size and shape of the mesh in one line.
 
-        f1 is proportional to the thickness where that is missing, and grows by half of what is
+        f1 is proportional to the thickness where that is missing, and grows by half of the part
         missing at the edges: it errs by no more than the volume.
         """
         shown = f"{self.cells} cells, {self.nodes} nodes, {1e9 * self.volume:.6g} mm3"
@@ -72,7 +72,7 @@ class MeshSummary:
         return self.thickness / self.edge
 
     def blade_line(self) -> str:
-        """What was meshed, in the units of a drawing, and whether the elements are enough."""
+        """The meshed solid, in the units of a drawing, and whether the elements are enough."""
         enough = self.through >= ENOUGH
         finer = f"take mesh.element_size_mm below {1e3 * self.thickness / ENOUGH:.2g}"
         return (

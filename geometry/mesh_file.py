@@ -29,7 +29,7 @@ meshio.gmsh.main._readers["4"] = meshio.gmsh._gmsh40  # gmsh writes 4 for versio
 
 
 def _read_msh(path: Path) -> FileMesh:
-    """A mesh of Gmsh, or a deck of cgx; of an ASCII section meshio reads what it declares."""
+    """A mesh of Gmsh, or a deck of cgx; of an ASCII section meshio reads the declared number."""
     data = path.read_bytes()
     if data.lstrip().startswith(b"*"):
         return read_deck(path)

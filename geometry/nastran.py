@@ -33,7 +33,7 @@ def read_bulk(path: Path) -> FileMesh:
 
 
 def _translated(line: int, keyword: str, fields: list[str]) -> Card | None:
-    """The card of Abaqus that says the same; none for what is not read."""
+    """The equivalent card of Abaqus; none for cards that are not read."""
     number, second, *others = fields
     if keyword in ("GRID", "GRDSET") and second not in ("", "0"):
         raise MeshError(

@@ -107,7 +107,7 @@ class Block(NamedTuple):
 
 
 class Split(NamedTuple):
-    """Ten-node tetrahedra, and what they were made of."""
+    """Ten-node tetrahedra, and their source cells."""
 
     points: NDArray  # (n, 3), those of the file first
     weights: csr_matrix  # (n, given), of those in the place, and the displacement, of each

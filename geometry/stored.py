@@ -88,7 +88,7 @@ class Stored:
         return found
 
     def require_possible(self) -> None:
-        """Check what else the values must be.
+        """Check the further demands on the values.
 
         Raises
         ------
@@ -119,7 +119,7 @@ def read(path: str | Path, kind: str, remedy: str | None = None) -> Iterator[xr.
     Raises
     ------
     ProvenanceError
-        When the file is missing or damaged, or the block does not find in it what it reads.
+        When the file is missing or damaged, or lacks data that the block reads.
     """
     with (
         legible(path, kind, remedy) as whole_file,

@@ -66,7 +66,7 @@ def read_sections(table: SectionTable, path: str | Path) -> list[CutSection]:
 
 
 def describe_cut(sections: list[CutSection]) -> str:
-    """What the cut of the edges leaves and takes, in one line.
+    """Lengths and areas that the cut of the edges leaves and takes, in one line.
 
     It takes mass and hardly stiffness: f1 rises by half of the share of the area (measured:
     0.3 to 0.4 of it on rotor 37).

@@ -1,4 +1,4 @@
-"""``python -m rom check FILE``: what a reduced model made elsewhere shows by itself."""
+"""``python -m rom check FILE``: checks of a reduced model made elsewhere."""
 
 import argparse
 import sys

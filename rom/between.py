@@ -86,7 +86,7 @@ def resolved(
     ----------
     states : at the ``speeds``, from which it takes each when the state is asked for
     speeds : ascending, rad/s; each further one is appended: where w is largest (Leja's points)
-    say : is told of each further speed, and why
+    say : called with each further speed and its reason
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Reduced models made elsewhere: what their file must hold, and what can be checked in it.
+"""Reduced models made elsewhere: demands on their file, and checks of it.
 
 The contract is that of ``rom.model.Rom`` (rom/README.md), without provenance: the hash of the file
 stands for that of the mesh. A file cannot show that its directions and signs are those of the
@@ -42,7 +42,7 @@ UNCHECKED = (
 
 @dataclass(frozen=True)
 class Report:
-    """What a check of a foreign model found, a line each."""
+    """Findings of a check of a foreign model, a line each."""
 
     shown: tuple[str, ...]
     faults: tuple[str, ...]
@@ -85,7 +85,7 @@ def _elsewhere(path: Path) -> bool:
 
 
 def report(path: str | Path) -> Report:
-    """What can be seen from the file at ``path``.
+    """Findings of a check of the file at ``path``.
 
     Raises
     ------
@@ -96,7 +96,7 @@ def report(path: str | Path) -> Report:
 
 
 def check_foreign(rom: Rom) -> Report:
-    """Check what a reduced model shows by itself."""
+    """Check a reduced model by itself."""
     if faults := _tip_faults(rom) or [*islice(_matrix_faults(rom), 1)]:
         return Report((), tuple(faults))
     frequencies = [rom.modes(Omega)[0][:SHOWN] / (2 * np.pi) for Omega in (0.0, rom.Omega_m)]
@@ -232,7 +232,7 @@ def _matrix_faults(rom: Rom) -> Iterator[str]:
 
 
 def _frequency_faults(rom: Rom, f1: float) -> list[str]:
-    """What the first frequency at rest of the matrices, ``f1`` (Hz), shows."""
+    """Faults against the first frequency at rest of the matrices, ``f1`` (Hz)."""
     faults = failed(
         (
             abs(rom.f1 / f1 - 1) <= SAME_F1,

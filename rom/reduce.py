@@ -29,7 +29,7 @@ def reduce(
     ----------
     fom : matrices at the speeds of ``basis_speeds`` and perhaps more, or given ones at their own
     directions : of the interface DoFs: "r" radial, "rt" also tangential, "rtz" also axial
-    say : is told after each speed how many are left
+    say : called after each speed with the number left
 
     Raises
     ------

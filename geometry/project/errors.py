@@ -12,7 +12,7 @@ SHOWN = 80  # characters of a value in a message
 class Fault(NamedTuple):
     """One thing that is wrong, as data; its string is the line that users read."""
 
-    text: str  # what is wrong, what is allowed, and what to do about it
+    text: str  # fault, allowed values and remedy
     key: str = ""  # by its path, as in liner.law.E
     value: Any = None  # where the line is to show it
     allowed: Any = None  # bounds by their names, as {"gt": 0}, or the values allowed
@@ -27,14 +27,14 @@ class Fault(NamedTuple):
 
 
 class UserError(Exception):
-    """Base of all errors for users; the message says what is wrong and what to do about it.
+    """Base of all errors for users; the message names fault and remedy.
 
     Its ``faults`` are a line each; ``text``, ``key``, ``value``, ``allowed``, ``file`` and ``line``
     are those of the first.
 
     Parameters
     ----------
-    *faults : what is wrong. A text stands for a fault with nothing else.
+    *faults : the faults. A text stands for a fault with nothing else.
     file : set in every one of them; a path or its text.
     **about : further fields of ``Fault``, likewise.
     """
@@ -80,7 +80,7 @@ class WriteError(UserError):
 
 
 class Caution(UserWarning):
-    """Base of all warnings for users: it goes on, and the message says what may be wrong."""
+    """Base of all warnings for users: work goes on, and the message names the suspected fault."""
 
 
 class MeshWarning(Caution):

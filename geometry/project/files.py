@@ -3,7 +3,7 @@
 The seal of a file, its last line, holds the hash of all bytes before it. It is checked before a
 library opens the file: one that is cut short, or was changed or damaged since it was written, is
 refused in one line. Otherwise it might be read as other numbers, or crash the library. Libraries
-pass over the line: HDF5 and pickle ignore what is behind the end of their data, for Gmsh and VTK
+pass over the line: HDF5 and pickle ignore bytes behind the end of their data, for Gmsh and VTK
 it is a comment. Mappings in JSON have the hash of their values among them.
 """
 
@@ -41,7 +41,7 @@ def whole(path: str | Path) -> Iterator[Path]:
 
     The temporary name keeps the suffix, by which writers choose their format, and names the
     process, so that two processes do not write the same file. Files of formats that are read back
-    get their seal. What processes that were killed left in the folder is removed.
+    get their seal. Leftovers of killed processes in the folder are removed.
 
     Raises
     ------
@@ -121,7 +121,7 @@ def _beside(path: Path) -> Iterator[Path]:
 
 
 def _remove_left(folder: Path) -> None:
-    """Remove what processes of this machine that are gone were writing in ``folder``."""
+    """Remove temporary files in ``folder`` of ended processes of this machine."""
     for file in folder.glob(".*"):
         name = TEMPORARY.fullmatch(file.name)
         if name and name[3] == _machine() and _started(int(name[1])) not in (None, name[2]):
@@ -193,7 +193,7 @@ def sealed(path: str | Path) -> bool:
 def intact(path: str | Path, remedy: str | None = None) -> Path:
     """Return ``path`` if the file is as it was written.
 
-    ``remedy``: what to do with another one, by default to make it anew.
+    ``remedy``: advice for another one, by default to make it anew.
 
     Raises
     ------
@@ -218,7 +218,7 @@ def legible(path: str | Path, kind: str, remedy: str | None = None) -> Iterator[
     Raises
     ------
     ProvenanceError
-        When it is not intact, or the block does not find in it what it reads.
+        When it is not intact, or lacks data that the block reads.
     """
     try:
         yield intact(path, remedy)

@@ -1,4 +1,4 @@
-"""What is said while something works: how far it is, and how long it will take."""
+"""Progress of work: the part that is done, and the time that is left."""
 
 import re
 from collections.abc import Callable, Iterable, Iterator
@@ -7,7 +7,7 @@ from time import perf_counter
 type Say = Callable[[str], None]
 
 WARNING = "warning: "  # begins lines that the user must see
-OF = re.compile(r"\w+ (\d+) of (\d+)")  # what is counted, in a line of ``left``
+OF = re.compile(r"\w+ (\d+) of (\d+)")  # items counted, in a line of ``left``
 BAR = 24  # characters
 UNITS = ((86400.0, "days"), (3600.0, "h"), (60.0, "min"), (1.0, "s"))
 

@@ -173,7 +173,7 @@ def _is_text(part: ast.AST) -> bool:
 def anew(path: str | Path) -> str:
     """Advice for messages: the command that makes the file at ``path`` anew.
 
-    With ``-f``: Snakemake leaves a file alone that is newer than what it is made from.
+    With ``-f``: Snakemake leaves a file alone that is newer than its sources.
     """
     full = Path(path).resolve()
     target = full.relative_to(ROOT) if full.is_relative_to(ROOT) else path
@@ -190,7 +190,7 @@ def version() -> str:
 def other_format(found: float, read: int, of_older: str) -> str:
     """Message for a file of format ``found`` where ``read`` is needed, without the former.
 
-    ``of_older``: what to do with an older file.
+    ``of_older``: advice for an older file.
     """
     remedy = "use a later Tiprub" if found > read else of_older
     return f"this Tiprub ({version()}) reads format {read}; {remedy}"
@@ -204,7 +204,7 @@ def require_format(
     Raises
     ------
     ProvenanceError
-        If it is not; the message names both formats, and for older files what to do (``of_older``,
+        If it is not; the message names both formats, and the advice for older files (``of_older``,
         by default to make them anew).
     """
     found, of_older = attributes.get("format"), of_older or anew(path)

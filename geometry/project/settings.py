@@ -30,7 +30,7 @@ def checked(check: Callable[[Any], None]) -> Any:
 class Settings(BaseModel):
     """Base of every settings model: unknown keys are errors, values cannot change."""
 
-    replaced: ClassVar[dict[str, str]] = {}  # keys of older versions, and what replaces them
+    replaced: ClassVar[dict[str, str]] = {}  # keys of older versions, and their replacements
     hints: ClassVar[dict[str, str]] = {}  # hints for messages when the value of a key is refused
     either: ClassVar[Sequence[tuple[str, ...]]] = ()  # keys of which exactly one is given
 
@@ -62,7 +62,7 @@ class Settings(BaseModel):
         ------
         geometry.project.errors.SettingsError
             When the file is missing, is no YAML mapping, or is not valid; the message has a line
-            for each fault. A fault that its base has as well is told of the base.
+            for each fault. A fault of its base as well is reported once, for the base.
         """
         layers = read_layers(path)
         found, faults = _checked(cls, layers[0].values)

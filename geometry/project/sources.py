@@ -1,7 +1,7 @@
-"""What a module depends on: the project's own files that it imports, as ``grimp`` finds them.
+"""Dependencies of a module: the project's own files that it imports, as ``grimp`` finds them.
 
-Nothing is imported. An import inside a function counts as any other. What a package loads by name
-``grimp`` cannot see; ``LOADING_ALL`` and ``FACES`` say it.
+Nothing is imported. An import inside a function counts as any other. Modules loaded by name
+``grimp`` cannot see; ``LOADING_ALL`` and ``FACES`` list them.
 """
 
 from functools import cache

@@ -1,4 +1,4 @@
-"""Parser of the YAML that users write: with limits, and without what is read as something else.
+"""Parser of the YAML that users write: with limits, and without ambiguous values.
 
 YAML 1.1 reads 010 as 8, 1:30 as 90 and 2020-01-01 as a date, takes the last of equal keys, and lets
 twenty lines with aliases stand for more values than a computer holds.

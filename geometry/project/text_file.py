@@ -1,4 +1,4 @@
-"""Text files of users: what is read at all, numbers, and rows of CSV files, also written."""
+"""Text files of users: which of them are read, numbers, and rows of CSV files, also written."""
 
 import csv
 import os
