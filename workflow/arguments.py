@@ -1,4 +1,4 @@
-"""What a rule gives to a function, as the types of its arguments ask for: files are read."""
+"""Values of a rule for a function, in the types of its arguments: files are read."""
 
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -11,9 +11,9 @@ type Readers = Mapping[Any, Callable[[str | Path], Any]]  # by type
 
 
 def argument(kind: Any, given: Any, readers: Readers | None = None) -> Any:
-    """An argument of type ``kind`` from what a rule gives for it.
+    """An argument of type ``kind`` from the value that a rule gives for it.
 
-    A path is read, or each of a list: by that of ``readers``, by what the type is annotated with,
+    A path is read, or each of a list: by one of ``readers``, by the annotation of the type,
     by the `load` of its class, or else as a JSON file. It stays a path where the type allows a
     text; where it allows None that stands for a rule's empty list. Values of settings are checked.
 

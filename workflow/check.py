@@ -1,6 +1,6 @@
-"""``./run check SCENE``: what a scene's result at its peaks depends on, as a table.
+"""``./run check SCENE``: effects of step, strips and mesh on a scene's peaks, as a table.
 
-At each reported peak of its sweep the run is marched again with half the step, twice the strips,
+At each reported peak of its sweep the run is repeated with half the step, twice the strips,
 twice the patches and strips, and on the model of a mesh finer by the square root of two.
 """
 
@@ -41,7 +41,7 @@ from workflow.usage import UsageError, read_usage
 
 FINER = sqrt(2)  # element size of the mesh over that of the finer one
 DEARER = 4.0  # matrices and modes on that mesh, 2.8 times the nodes
-JOBS = ("mesh", "assemble", "reduce-{}")  # whose times say what another model costs
+JOBS = ("mesh", "assemble", "reduce-{}")  # whose times give the cost of another model
 
 
 def twice_the_rods(scene: Scene) -> Scene:
@@ -205,7 +205,7 @@ def _where(of: Subject, peak: Peak) -> str:
 
 
 def _cells(columns: Sequence[Column], own: Numbers, result: Numbers | str) -> list[str]:
-    """Of the run itself its numbers, of another how much each has changed, or what refused it."""
+    """Numbers of the run itself; relative changes of another one, or its refusal."""
     if isinstance(result, str):
         return [result, *[""] * (len(columns) - 1)]
     if result is own:
@@ -223,7 +223,7 @@ def _changed(own: Numbers, result: Numbers, name: str) -> str:
 
 
 def check(name: str, say: Say = print) -> str:
-    """Check a scene: says its cost, then what it does; return the table, kept as ``check.md``."""
+    """Check a scene: say its cost and progress; return the table, kept as ``check.md``."""
     of, start = Subject.read(name), perf_counter()
     say(
         f"{name}: {len(of.peaks)} speeds, {len(CHANGES)} changes: some "

@@ -1,6 +1,6 @@
 """Margins of operating speeds: how far critical speeds are, linear crossings and rub peaks alike.
 
-Summary, Campbell diagram and page show these rows, of what ``simulate.sweeps.peak`` finds.
+Summary, Campbell diagram and page show these rows, of the peaks by ``simulate.sweeps.peak``.
 """
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -9,7 +9,7 @@ from typing import Any
 
 from workflow import markdown
 
-WITHIN = 0.25  # of the operating speed: tables have what is not farther
+WITHIN = 0.25  # of the operating speed: tables have the speeds within it
 HEADS = [
     *("operating speed rpm", "critical speed", "mode", "EO", "rpm"),
     *("speed margin", "frequency margin"),
@@ -33,7 +33,7 @@ def rows(
 
     Returns
     -------
-    Name and rpm of the operating line; what the critical speed is, its mode (None of a rub peak),
+    Name and rpm of the operating line; kind of the critical speed, its mode (None of a rub peak),
     k, rpm, that of the quadratic, rpm_error (None, nan: not known) and ``bound``; the margins of
     speed, critical over operating speed less 1, and of frequency, (f - k Omega) / (k Omega) at the
     operating speed (None of a rub peak).
@@ -74,12 +74,12 @@ def rows(
 
 
 def near(margins: Iterable[Mapping[str, Any]]) -> list[dict[str, Any]]:
-    """What lies within ``WITHIN``."""
+    """Rows within ``WITHIN``."""
     return [row for row in margins if abs(row["speed_margin"]) <= WITHIN]
 
 
 def table(margins: Iterable[Mapping[str, Any]]) -> list[list[str]]:
-    """Cells, under ``HEADS``, of what is near."""
+    """Cells, under ``HEADS``, of the rows that are near."""
     return [
         [
             f"{row['line']} {row['line_rpm']:.0f}",
@@ -115,7 +115,7 @@ def nearest(
 ) -> Iterator[str]:
     """The critical speed next above and next below an operating speed, a line each.
 
-    ``of``: what the ``margins`` are of, for the words.
+    ``of``: name of the subject of the ``margins``.
     """
     for side, sign in (("above", 1), ("below", -1)):
         near = [row for row in margins if row["line"] == name and sign * row["speed_margin"] > 0]
@@ -133,7 +133,7 @@ def _told(row: Mapping[str, Any]) -> str:
 
 
 def covered(found: Mapping[str, Any], swept: Sequence[float]) -> str:
-    """What the margins are of; ``swept``: slowest and fastest run with a result, rpm, if any."""
+    """Subject of the margins; ``swept``: slowest and fastest run with a result, rpm, if any."""
     orders, of_f1 = (", ".join(map(str, found[of])) for of in ("orders", "peaks"))
     before, top = found["through"]
     further = f", of mode 1 with EO {of_f1}" if of_f1 else ""

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from math import floor, isfinite, isnan, log10
 from typing import NamedTuple
 
-LEAST = 1e-4  # smaller uncertainties and changes, relative, are not told apart
+LEAST = 1e-4  # smaller uncertainties and changes, relative, count as equal
 NOT_KNOWN = "(no ±)"  # without any uncertainty
 DIGITS = 3  # of a value without an uncertainty
 MOST = 5  # of one with it: to ``LEAST`` of itself
@@ -17,7 +17,7 @@ def table(head: Sequence[object], rows: Iterable[Iterable[object]]) -> str:
 
 
 def cell(value: object, unknown: str = "-") -> str:
-    """A value in a cell: three digits of a float, and of None or nan what stands for ``unknown``.
+    """A value in a cell: three digits of a float, and of None or nan the text ``unknown``.
 
     >>> cell(1.2345), cell(3), cell(None), cell("ok")
     ('1.23', '3', '-', 'ok')

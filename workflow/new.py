@@ -39,7 +39,7 @@ SOURCES = {  # template of a blade by the suffix of its file
     ".csv": "section_table",
     "": "sections",
 }
-SHOWN = SOURCES.keys() - {".brep", ".csv", ""}  # what they hold
+SHOWN = SOURCES.keys() - {".brep", ".csv", ""}  # their contents
 SHARES = (0.4, 0.95)  # of the blade's highest speed: of the sweep
 
 
@@ -113,7 +113,7 @@ def _filled(template: str, **values: Any) -> str:
 def schema(model: type[BaseModel]) -> dict[str, Any]:
     """JSON schema of a settings model, by which editors complete and check its files.
 
-    A file with a `base` has only what differs: there no key is required.
+    A file with a `base` has only the differences: there no key is required.
     """
     of = model.model_json_schema()
     required = of.pop("required", [])
@@ -137,7 +137,7 @@ def main(arguments: list[str], here: Path = Path()) -> None:
 
 
 def _show(file: Path) -> None:
-    """Show what a mesh or a STEP file holds."""
+    """Show the contents of a mesh or a STEP file."""
     from geometry.cad import StepFile  # slow imports, which other kinds do without
     from geometry.mesh_file import read_mesh_file
 

@@ -52,7 +52,7 @@ def found(summary: Mapping[str, Any]) -> str:
 
 
 def scenes(summary: Mapping[str, Any]) -> str:
-    """All peaks of the scenes over f1(0) and the gap, and of each scene what no machine changes."""
+    """All peaks of the scenes over f1(0) and the gap, and facts that no machine changes."""
     rows = [
         [scene["scene"], row["k"], *over_gap(row), row["lobes"], row["word"]]
         for scene, row in _peaks(summary)
@@ -65,7 +65,7 @@ def scenes(summary: Mapping[str, Any]) -> str:
 
 
 def printed(summary: Mapping[str, Any]) -> str:
-    """What the terminal prints of the first scene."""
+    """Lines that the terminal prints of the first scene."""
     return f"```\n{terminal({'scenes': summary['scenes'][:1], 'others': []}).strip()}\n```"
 
 
@@ -129,7 +129,7 @@ def _farthest(frequencies: Sequence[float], limit: Sequence[float]) -> str:
     return change(max((f / of - 1 for f, of in zip(frequencies, limit, strict=True)), key=abs))
 
 
-# block, file that holds its numbers, what writes them
+# block, file that holds its numbers, function that writes them
 TRADE = "results/experiments/trade/table.json"
 COMPUTED = (
     ("found", "results/summary.json", found),
@@ -165,7 +165,7 @@ COMPUTED = (
     ("bricks", "tests/fem/bricks.json", bricks),
     ("growth", "results/scaling/scaling.json", scaling.table),
 )
-SETTINGS = {"blade": Blade, "given": GivenMatrices, "scene": Scene}  # block: what checks the file
+SETTINGS = {"blade": Blade, "given": GivenMatrices, "scene": Scene}  # block: model of the file
 # kept beside the captions, for the pages
 PICTURES = (
     "reference/paper-e1/rub-0.350.png",
@@ -227,7 +227,7 @@ def require_blocks(pages: Mapping[str, str]) -> None:
 
 
 def _fault(name: str, pages: Sequence[str], filled: bool, whole: bool) -> str:
-    """What is wrong with a block on these pages; nothing for a block that is right."""
+    """Fault of a block on these pages; empty for a block that is right."""
     named, end = " and ".join(pages), f"`<!-- /{name} -->`"
     if not pages:
         return f"on no page; add `<!-- {name}: -->` and {end} to one of {', '.join(PAGES)}"
@@ -239,7 +239,7 @@ def _fault(name: str, pages: Sequence[str], filled: bool, whole: bool) -> str:
 
 
 def generated(pages: Mapping[str, str], folder: Path = Path()) -> Pages:
-    """Pages with their tables of settings, and what ``folder`` holds of their results.
+    """Pages with their tables of settings, and the results that ``folder`` holds.
 
     Raises
     ------

@@ -85,7 +85,7 @@ PARTS = {  # of uncertainties, that may not be known
     "speeds": "amplitude between the speeds of the sweep (peaks: adds speeds)",
 }
 
-# What is told of a scene as its answers have it.
+# Values of a scene taken from its answers as they are.
 TOLD = ("scene", "blade", "f1_Hz", "gap_m", "dofs", "crossings", "status", "reasons", "ends")
 TOLD += ("doubt", "no_torque", "mu_crit", "sweep_s")
 
@@ -129,7 +129,7 @@ def numbers(
 
 
 def _scene(of: Mapping[str, Any], stress: Stress, found: Mapping[str, Any]) -> dict[str, Any]:
-    """One scene; ``found``: what its margins are of."""
+    """One scene; ``found``: subject of its margins."""
     rows = [_row(of, answer, stress) for answer in of["peaks"]]
     peaks = [
         row | {"what": f"rub peak ({row['course']['trend']})" if moves(row) else "rub peak"}
@@ -232,7 +232,7 @@ def _key(over_f1: float) -> float:
 
 
 def table(summary: Mapping[str, Any]) -> str:
-    """Markdown: a table for each scene, what is not known, and what the numbers are."""
+    """Markdown: a table for each scene, unknown parts, and the meaning of the numbers."""
     parts = ["# Summary", ""]
     for scene in summary["scenes"]:
         parts += [f"## {scene['scene']}", "", about(scene), ""]
@@ -251,7 +251,7 @@ def left_out(summary: Mapping[str, Any]) -> list[str]:
 
 
 def meaning() -> str:
-    """What the columns and the words of the rows are, as a list."""
+    """Meaning of the columns and of the words in the rows, as a list."""
     return "\n".join(f"- {name}: {text}." for name, text in MEANING.items())
 
 
@@ -360,7 +360,7 @@ def moves(row: Row) -> bool:
 
 
 def _at_end(row: Row) -> list[str]:
-    """Whether the motion is steady, the time constant by which, and what is still worn."""
+    """Whether the motion is steady, its time constant, and the wear still going on."""
     course = row["course"]
     numbers = course.get("time_constant"), course.get("wears") and 1e9 * course["wears"]
     known = [markdown.cell(of) if of is None or isfinite(of) else "-" for of in numbers]
@@ -381,7 +381,7 @@ def about(scene: Mapping[str, Any]) -> str:
 
 
 def notes(scene: Mapping[str, Any]) -> list[str]:
-    """Crossings, ends of the sweep, operating lines, what is not known, and what that cost."""
+    """Crossings, ends of the sweep, operating lines, unknown parts, cost of uncertainties."""
     lines = [*at_speeds(scene), *_of_lines(scene)]
     numbers = {name for row in scene["rows"] for name in row["values"]}
     missing = {part for row in scene["rows"] for parts in row["unknown"].values() for part in parts}
@@ -399,7 +399,7 @@ def notes(scene: Mapping[str, Any]) -> list[str]:
 
 
 def _of_lines(scene: Mapping[str, Any]) -> list[str]:
-    """What is next to the operating speeds, and of what that is; nothing without these."""
+    """Critical speeds next to the operating speeds, and their subject; nothing without these."""
     found = scene["operating"]
     swept = [RPM_PER_HZ * scene["f1_Hz"] * end["over_f1"] for end in scene["ends"]]
     lines = [margins.nearest(found, scene["margins"], name) for name in found.get("lines", ())]
@@ -407,7 +407,7 @@ def _of_lines(scene: Mapping[str, Any]) -> list[str]:
 
 
 def at_speeds(scene: Mapping[str, Any]) -> list[str]:
-    """Linear crossings of f1, and what its ends show."""
+    """Linear crossings of f1, and results at the ends of the sweep."""
 
     def at(over_f1: float) -> str:
         return f"{RPM_PER_HZ * scene['f1_Hz'] * over_f1:.0f} rpm ({over_f1:.3f})"

@@ -1,4 +1,4 @@
-"""What a job used, CPU time and memory: written to the end of its log, and read from there.
+"""CPU time and memory of a job: written to the end of its log, and read from there.
 
 Snakemake's own benchmark files sample a job twice a second for 15 s, and then every 30 s: of a job
 of 40 s they have the first 15.
@@ -16,7 +16,7 @@ USED = re.compile(r"^used (?P<seconds>[\d.]+) s of CPU, (?P<peak_MB>\d+) MB at m
 
 
 class UsageError(UserError):
-    """A log that does not say what its job used."""
+    """A log without CPU time and memory of its job."""
 
 
 def cpu_time() -> float:
@@ -27,7 +27,7 @@ def cpu_time() -> float:
 def usage(begun: float) -> str:
     """The line of a log: CPU time since ``begun``, of ``cpu_time``, and peak memory, also of them.
 
-    Until it has its program, a process that is started counts the memory of what started it.
+    Until it has its program, a process that is started counts the memory of its parent.
     """
     own = re.search(r"VmHWM:\s+(\d+)", STATUS.read_text() if STATUS.is_file() else "")
     own_kB = int(own[1]) if own else getrusage(RUSAGE_SELF).ru_maxrss

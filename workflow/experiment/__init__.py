@@ -1,4 +1,4 @@
-"""Experiments: scenes with some values changed, what their runs show, and its picture.
+"""Experiments: scenes with some values changed, their results and picture.
 
-Rows are planned without compiled code (``plan``) and marched in blocks (``engine``).
+Rows are planned without compiled code (``plan``) and computed in blocks (``engine``).
 """

@@ -1,8 +1,8 @@
-"""Rows of an experiment marched, and their table.
+"""Computed rows of an experiment, and their table.
 
 Each row that is done is kept in a file of its own, under a hash of all that decides its numbers:
-its scene, its model, what it is compared with, the code. Whatever is asked for next, with more rows
-or in another number of blocks, is marched only if it has no file.
+its scene, its model, its reference, the code. A row asked for later, with more rows
+or in another number of blocks, is computed only if it has no file.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -39,14 +39,14 @@ from simulate.scene import Scene
 from simulate.sweeps.closing_in import sweep
 from workflow.experiment.plan import Case
 
-TURNS, LONG = 3, 1.0  # most marches of a single run, and CPU time, s, after which there is no more
+TURNS, LONG = 3, 1.0  # most times a run is computed, and CPU time, s, after which no more
 
 _hash = cache(file_hash)  # matrices of a blade serve many rows
 
 
 @dataclass(frozen=True)
 class Marched:
-    """A case on its model, marched where its results are asked for.
+    """A case on its model, computed when its results are asked for.
 
     Functions of numbers get those of these attributes that are their arguments, and of ``files``.
     """
@@ -55,7 +55,7 @@ class Marched:
     rom: Rom | None  # None where it needs none
     files: Mapping[str, str]  # further files of its model, by name
     reference: "Marched | None"  # the case with which it is compared
-    seconds: list[float] = field(default_factory=list)  # CPU time of each march, all the same
+    seconds: list[float] = field(default_factory=list)  # CPU time of each computation of its run
 
     @property
     def scene(self) -> Scene:
@@ -74,7 +74,7 @@ class Marched:
         return prepare(self.scene, self.rom, float(self.scene.speeds.omega(self.rom.f1)[0]))
 
     def _timed[Result](self, march: Callable[[], Result]) -> Result:
-        """What a march gives; its CPU time, without that of compiling, is kept."""
+        """Result of a ``march``; its CPU time, without that of compiling, is kept."""
         make_kernel(self.scene, self.setup)
         begun = process_time()
         result = march()
@@ -111,14 +111,14 @@ class Marched:
         )
 
     def row(self, folder: str | Path) -> dict[str, Any]:
-        """What it is, its numbers and their CPU time.
+        """Description of the row, its numbers and their CPU time.
 
-        These are in a file of ``folder``; where there is none that is whole, it is marched.
+        These are in a file of ``folder``; where no whole one is there, the row is computed.
 
         Raises
         ------
         geometry.project.errors.UserError
-            When it cannot be marched; the message names the row.
+            When it cannot be computed; the message names the row.
         """
         about = {
             "group": self.case.group,
@@ -143,7 +143,7 @@ class Marched:
 
 
 def _called(name: str, of: Marched) -> Any:
-    """What a function makes of those attributes and files of a case that are its arguments."""
+    """Result of a function whose arguments are attributes and files of a case."""
     module, _, function = name.partition(":")
     call = getattr(import_module(module), function)
     return call(
@@ -160,7 +160,7 @@ def march_block(
 ) -> list[dict[str, Any]]:
     """Rows of every ``blocks``-th case from ``block`` on; those in files of ``folder`` are read.
 
-    Cases that are compared with the same one follow one another, so that it is marched once.
+    Cases that are compared with the same one follow one another, so that it is computed once.
 
     Raises
     ------

@@ -1,6 +1,6 @@
 """Functions of experiments: from the results of a row to its numbers.
 
-Their arguments are named after what they use: ``runs``, the sweep of the row; ``single``, its run
+Their arguments are named after their values: ``runs``, the sweep of the row; ``single``, its run
 at the first speed alone; ``scene``; ``rom``, its model; ``reference``, the row with which it is
 compared; and files of the model that the experiment ``needs``.
 """

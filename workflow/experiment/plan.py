@@ -33,7 +33,7 @@ from simulate.scene.design import placed, value_at
 SCENES = Path("workflow/scenes")
 OF_A_ROW = ("times", "directions", "model")  # its keys that are none of a scene
 DIRECTIONS = ("r", "rt", "rtz")  # of the interface DoFs
-REFUSED = ("accuracy", "design", "start")  # what needs other files than the model
+REFUSED = ("accuracy", "design", "start")  # keys that need other files than the model
 FILES = {  # of a model, by names that functions of numbers have for them
     "rom": "results/{blade}/rom-{directions}.nc",
     "mesh": "results/{blade}/blade.msh",
@@ -147,7 +147,7 @@ class Case(Settings):
     directions: str  # interface directions of its model
     model: str | None  # function that makes another model of it, as module:function
     function: str  # of its numbers, as module:function
-    needs: tuple[str, ...]  # of ``FILES``, the reduced model where it is marched
+    needs: tuple[str, ...]  # of ``FILES``, the reduced model where it is run
 
     @property
     def row(self) -> str:
@@ -192,7 +192,7 @@ def cases(path: str | Path) -> list[Case]:
 
     @contextmanager
     def kept_faults(*places: Keys) -> Iterator[None]:
-        """Keep the faults of what is made of these places, and go on."""
+        """Keep the faults of values at these places, and go on."""
         try:
             yield
         except SettingsError as error:

@@ -21,7 +21,7 @@ def rows(blocks: list[list[dict[str, Any]]]) -> list[dict[str, Any]]:
 
 
 def frame(rows: Sequence[Mapping[str, Any]]) -> pd.DataFrame:
-    """What each row is, its CPU time, and its numbers, nested ones by a joint name.
+    """Description of each row, its CPU time, and its numbers, nested ones by a joint name.
 
     Lists among the numbers are left out, and columns without any value.
 

@@ -1,4 +1,4 @@
-"""What the page shows of the blade: its motion and stress, and the liner above its tip.
+"""The blade on the page: its motion and stress, and the liner above its tip.
 
 The motion is held by a few shapes, and with them its stress.
 """
@@ -104,8 +104,8 @@ def largest_stress(
 ) -> float:
     """Largest von Mises stress, Pa, of static (nodes, 6) and moving stress, at all times; or nan.
 
-    Only nodes are looked at whose bound |static| + sum |a| |shape| is not below what a node near it
-    reaches: the von Mises stress is a seminorm.
+    Only nodes count whose bound |static| + sum |a| |shape| is not below the stress at a node near
+    them: the von Mises stress is a seminorm.
 
     Parameters
     ----------
@@ -181,7 +181,7 @@ def moving(
 
 
 def _facts(found: Motion, sweep: xr.Dataset, rom: Rom) -> dict[str, Any]:
-    """How much the shapes miss at each speed; time of a state in its round; highest speed."""
+    """Share missed by the shapes at each speed; times of states in a revolution; top speed."""
     time = sweep["motion_time"].values
     return {
         "shapes": found.shapes.shape[1],

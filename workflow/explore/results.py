@@ -1,4 +1,4 @@
-"""What the page shows of a sweep: facts as plain values, and arrays over the speeds."""
+"""The sweep on the page: facts as plain values, and arrays over the speeds."""
 
 from collections.abc import Iterable
 from math import isfinite, isinf, isnan
@@ -29,7 +29,7 @@ def arrays(response: Response) -> Arrays:
     along (speeds, orders); spectrum (speeds, bins); worn (speeds, angles) of the leading eighth;
     liner (speeds, strips, coarse angles); history (speeds, windows, 2), its range; inward (angles),
     the casing's distortion, of harmonics that travel at the start; signal (speeds, times), u_r at
-    xi = 1/16 in the last revolution. Only what the sweep holds.
+    xi = 1/16 in the last revolution. Only data that the sweep holds.
     """
     sweep, gap = response.sweep, leading_gap(response.sweep)
     theta = np.arange(ANGLES) * 2 * np.pi / ANGLES

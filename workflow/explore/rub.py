@@ -23,11 +23,11 @@ from simulate.scene import LEADING, Record, Scene
 from simulate.sweeps.before import before
 from workflow.figures import style
 
-FRAMES, RATE = 16, 16  # in a round, in a second
+FRAMES, RATE = 16, 16  # in a revolution, in a second
 PIXELS = 110  # per inch
 WRITERS = {".gif": "pillow", ".png": "pillow", ".mp4": "ffmpeg"}
 DRAWN = 0.1  # of the casing's radius, one gap in the drawing
-SEEN = 3  # rounds of the displacement shown at a time
+SEEN = 3  # revolutions of the displacement shown at a time
 TIP = {"color": style.BLACK, "linewidth": 1.6}
 LINER = {"color": style.VERMILLION, "linewidth": 1.4}
 NEW = {"color": style.GREY, "linewidth": 0.8, "linestyle": "--"}
@@ -35,30 +35,30 @@ NEW = {"color": style.GREY, "linewidth": 0.8, "linestyle": "--"}
 
 @dataclass(frozen=True)
 class Rub:
-    """One run, with the liner after every round; lengths over the gap."""
+    """One run, with the liner after every revolution; lengths over the gap."""
 
     speed: float  # over f1(0)
     tip: float  # rad, of xi = 1/16 at the start
-    ended: str | None  # status of a run that ended before its last round
-    # (nu,), the casing's distortion at the end of its ramp, by the time in rounds
+    ended: str | None  # status of a run that ended before its last revolution
+    # (nu,), the casing's distortion at the end of its ramp, by the time in revolutions
     inward: Callable[[float], NDArray[np.float64]]
     travels: bool  # whether it depends on the time
-    share: NDArray[np.float64]  # (rounds, samples) of it at each time
-    wear: NDArray[np.float64]  # (rounds + 1, nu), leading eighth
-    u_r: NDArray[np.float64]  # (rounds, samples), at xi = 1/16; nan after the end
+    share: NDArray[np.float64]  # (revolutions, samples) of it at each time
+    wear: NDArray[np.float64]  # (revolutions + 1, nu), leading eighth
+    u_r: NDArray[np.float64]  # (revolutions, samples), at xi = 1/16; nan after the end
 
     def turn(self, sample: int) -> float:
-        """Angle of the tip in the casing after a sample of a round, in rounds."""
+        """Angle of the tip in the casing after a sample of a revolution, in revolutions."""
         return self.tip / (2 * np.pi) + (sample + 1) / self.u_r.shape[1]
 
     def casing(self, done: int, sample: int) -> NDArray[np.float64]:
-        """Distortion (nu,) after a sample of a round, inward."""
+        """Distortion (nu,) after a sample of a revolution, inward."""
         return self.share[done, sample] * self.inward(done + (sample + 1) / self.u_r.shape[1])
 
     def liner(self, done: int, sample: int) -> NDArray[np.float64]:
-        """Wear (nu,): behind the tip that of this round, ahead of it that of the one before."""
+        """Wear (nu,): behind the tip of this revolution, ahead of it of the one before."""
         nu, samples = self.wear.shape[1], self.u_r.shape[1]
-        since = (np.arange(nu) / nu - self.tip / (2 * np.pi)) % 1  # of the round, when passed
+        since = (np.arange(nu) / nu - self.tip / (2 * np.pi)) % 1  # of the revolution, when passed
         passed = since < (sample + 1) / samples
         return np.where(passed, self.wear[done + 1], self.wear[done])
 
@@ -70,7 +70,7 @@ def by_rounds(
     choice: Choice | None = None,
     start: xr.Dataset | None = None,
 ) -> Rub:
-    """March the scene at one speed, round by round, each from where the one before ended.
+    """Run the scene at one speed, revolution by revolution, each from the end of the one before.
 
     ``choice`` and ``start`` are those of the scene, as in ``simulate.sweeps.closing_in.sweep``.
 
@@ -125,7 +125,7 @@ def _rub(
 def animation(rub: Rub, title: str, last: bool = False) -> FuncAnimation:
     """The casing around the blade; beside it the worn profile, and the tip's displacement.
 
-    ``title``: what was run, above the speed and the revolution; ``last``: the last moment alone.
+    ``title``: name of the run, above the speed and the revolution; ``last``: the last moment alone.
     """
     drawn = style.figure(style.DOUBLE, 3.4)
     grid = drawn.add_gridspec(2, 2, width_ratios=(1, 1.3))
@@ -158,7 +158,7 @@ def animation(rub: Rub, title: str, last: bool = False) -> FuncAnimation:
 
 
 def _lines(rub: Rub, n: int, s: int) -> list[Any]:
-    """Places of all lines after a sample of a round, in the order in which they are drawn."""
+    """Places of all lines after a sample of a revolution, in the order in which they are drawn."""
     samples, turn, end = rub.u_r.shape[1], rub.turn(s), n * rub.u_r.shape[1] + s + 1
     distorted, liner = -rub.casing(n, s), rub.liner(n, s)
     reach, degrees = np.array([0.55, 1 + DRAWN * (rub.u_r[n, s] - 1)]), 360 * np.arange(liner.size)
@@ -223,7 +223,7 @@ def _profile(axes: Axes, rub: Rub) -> None:
 
 
 def _history(axes: Axes, rub: Rub) -> None:
-    """Displacement at xi = 1/16 over the last rounds up to now."""
+    """Displacement at xi = 1/16 over the last revolutions up to now."""
     axes.plot([], [], color=style.BLACK, linewidth=0.8)
     axes.plot([], [], "o", color=style.BLACK)
     low, high = np.nanmin(rub.u_r), np.nanmax(rub.u_r)

@@ -43,10 +43,10 @@ def draw(
     records : plain values by column, a record for each cell; others are white.
     x, y : columns that name columns and rows of the matrix, in the order in which they occur.
     value : column of the number that colours a cell; white where it is None.
-    text : column of what is written in a cell; without it the number.
-    bold : column of whether that is bold.
+    text : column of the text in a cell; without it the number.
+    bold : column of whether the text is bold.
     panel : column; a panel for each of its values, with all columns and rows.
-    labels : what is written for a column or for one of its values: of ``value`` at the colour
+    labels : text for a column or for one of its values: of ``value`` at the colour
         bar, of ``x`` and ``y`` at the axes. Values without one are written as they are.
     limits : of the colours; without them to the largest number from the least one, on a linear
         scale from 0 if that is less.

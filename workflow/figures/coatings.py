@@ -36,7 +36,7 @@ type Case = dict[str, Any]
 def peaks(grid: Case, order: int = 4) -> Figure:
     """Two maps, ||Y|| and Omega_c, with the case of the largest amplitude in bold.
 
-    The paper's worst case, which is one of k = 4, is marked.
+    The paper's worst case, which is one of EO 4, is marked.
     """
     drawn, panels = style.subplots(style.DOUBLE, 4.4, 2, letters=True, sharex=True)
     cases = [case | {"peak": case["peaks"][str(order)]} for case in grid["cases"]]

@@ -1,4 +1,4 @@
-"""Designs: what stands in their rows, as a table and a picture, and which factors matter."""
+"""Designs: their rows as a table and a picture, and the factors that matter."""
 
 from typing import Annotated
 
@@ -25,7 +25,7 @@ type Rows = Annotated[xr.Dataset, load_table]
 
 
 def table(rows: xr.Dataset) -> pd.DataFrame:
-    """A line for each row of a design: what it changes, its extremes, its reported peaks.
+    """A line for each row of a design: its changes, its extremes, its reported peaks.
 
     In rpm, micrometres and newtons; a peak that is not reported has no numbers.
     """

@@ -17,7 +17,7 @@ BELOW = -0.3  # of the height of a panel: place of a legend of its own
 # Decades of a logarithmic axis with numbers at some, and at all ticks between powers of ten
 SHORT = 0.5, 0.25
 type Looks = Sequence[tuple[str, Any]]
-LOOKS: Looks = (  # of lines, told apart without colour
+LOOKS: Looks = (  # of lines, distinct without colour
     ("o-", style.BLACK),
     ("s--", style.VERMILLION),
     ("^:", style.BLUE),
@@ -50,7 +50,7 @@ def draw(
     x, y : columns of numbers.
     line : column; a line for each of its values.
     panel : column; a panel for each of its values.
-    labels : what is written for a column, with its unit at the axes, or for a value. Without one
+    labels : text for a column, with its unit at the axes, or for a value. Without one
         they are written as they are, and the legend has no title.
     log : axes with a logarithmic scale: x, y or xy.
     looks : format and colour of each line in a panel.

@@ -15,7 +15,7 @@ from workflow.figures import style, units
 from workflow.figures.marks import NO_LINES, operating_lines
 from workflow.figures.response import Response
 
-LOOKS = (  # of scenes, told apart without colour
+LOOKS = (  # of scenes, distinct without colour
     {"color": style.BLACK, "linestyle": "-"},
     {"color": style.VERMILLION, "linestyle": "--"},
     {"color": style.BLUE, "linestyle": ":"},
@@ -53,7 +53,7 @@ def draw(
 def loads_of(
     response: Response, told: Mapping[str, Any], stress: Mapping[str, Any] | None
 ) -> Loads:
-    """Loads of a sweep; ``told``: its answers; ``stress``: the largest in the last round."""
+    """Loads of a sweep; ``told``: its answers; ``stress``: the largest in the last revolution."""
     sweep, scene, rom = response.sweep, response.scene, response.rom
     width, radius = sweep["width"].values, rom.line(sweep["xi"].values)[:, 0]
     lines = {}

@@ -1,4 +1,4 @@
-"""Long times: 2000 rounds, a run-up and run-down through a peak, the growth of the worst cases."""
+"""Long times: 2000 revolutions, a run-up and run-down through a peak, growth of the worst."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -37,7 +37,7 @@ def through_peak(
     run_down: Response,
     on_worn: Response,
 ) -> Figure:
-    """Amplitude over the rounds, a line for each speed; amplitude and wear over the speed.
+    """Amplitude over the revolutions, a line for each speed; amplitude and wear over the speed.
 
     Each of ``long`` goes on from the one before; the others are drawn from the first speed of the
     run-up.
@@ -73,7 +73,7 @@ def through_peak(
 
 @style.styled
 def growth(worst: dict[str, Any]) -> Figure:
-    """Amplitude over successive windows of ten rounds, and that of the bare rigid casing."""
+    """Amplitude over successive windows of ten revolutions, and that of the bare rigid casing."""
     of = {
         f"{case['name']}: $E$ = {case['E']:g}, $K$ = {case['K']:g}": case for case in worst["cases"]
     }

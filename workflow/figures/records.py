@@ -20,5 +20,5 @@ def split(records: Records, column: str) -> dict[Any, pd.DataFrame]:
 
 
 def labelled(labels: Labels, name: Any) -> str:
-    """What is written for a column or a value: its label, or itself."""
+    """Text for a column or a value: its label, or itself."""
     return labels.get(name, f"{name:g}" if isinstance(name, Real) else str(name))

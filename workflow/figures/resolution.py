@@ -45,7 +45,7 @@ def wear(coarse: Response, fine: Response) -> Figure:
 
 @style.styled
 def displacement(coarse: Response, fine: Response, steps: Sequence[Response]) -> Figure:
-    """One row for densities, one for steps, at the last speed: first rounds, and the last alone."""
+    """One row for densities, one for steps, at the last speed: first revolutions, then the last."""
     compared = ([coarse, fine], _rods), (steps, _step)
     drawn, panels = style.subplots(
         style.DOUBLE, 4.0, len(compared), 2, width_ratios=(1.6, 1), sharey="row"
@@ -81,7 +81,7 @@ def _rods(response: Response) -> str:
 
 
 def _step(response: Response) -> str:
-    """Time step of the run: that of the scene, shortened to fit the samples of a round."""
+    """Time step of the run: that of the scene, shortened to fit the samples of a revolution."""
     run = response.sweep.isel(speed_over_f1=-1)
     return rf"$h$ = {float(run['step'] / run['step_limit']):.2f} $h_\mathrm{{limit}}$"
 

@@ -67,7 +67,7 @@ class Response:
 
     @property
     def u_r(self) -> NDArray[np.float64]:
-        """Displacement (speeds, rounds * samples) at xi = 1/16 over gap, from the start."""
+        """Displacement (speeds, revolutions * samples) at xi = 1/16 over gap, from the start."""
         place = self.scene.record.chord.index(LEADING)
         return self.sweep["history"].values[:, place] / leading_gap(self.sweep)
 

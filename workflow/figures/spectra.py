@@ -42,8 +42,8 @@ SHADE = 0.25  # opacity of the paper's critical speeds
 LABEL = f"amplitude of $u_r$ at {style.PLACE}"
 ENGINE_ORDER = 4  # at whose peak spectrograms are drawn
 MODES = 7  # natural frequencies marked in them
-WINDOW = 2  # rounds, of a spectrum
-SLICES = 16  # spectra a round
+WINDOW = 2  # revolutions, of a spectrum
+SLICES = 16  # spectra per revolution
 AMPLITUDES = 1e-4, 1.0  # gaps, ends of their scale
 TITLES = ("without tangential force", "with tangential force")
 APART = 0.055  # least distance of two labels, over the axes' height
@@ -183,7 +183,7 @@ def over_time(without: Response, withit: Response) -> Figure:
 
 
 def _at_peak(response: Response, peak: Peak, f1: float) -> str:
-    """Critical speed; energy share of mode 1 and entropy of the spectrum of the last rounds."""
+    """Critical speed; energy share of mode 1 and entropy of the last revolutions' spectrum."""
     samples = response.scene.record.samples_per_round
     last = response.u_r[peak.index, -SPECTRUM_ROUNDS * samples :]
     share = mode_share(last, samples, peak.Omega_c, f1)

@@ -1,4 +1,4 @@
-"""The table of figures, ``figures.yaml``: which there are, of which files, and what they need."""
+"""The table of figures, ``figures.yaml``: their names, files and needs."""
 
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from operator import attrgetter
@@ -11,7 +11,7 @@ from geometry.project import Settings, SettingsError, check_settings, merged, re
 from simulate.scene import Scene
 
 DELIVERED = "delivered"  # the part of the table that a plain run delivers
-OF_SCENE = {  # what the value of a key of a scene must be
+OF_SCENE = {  # demands on the value of a key of a scene
     "set": bool,
     "rest": lambda at: at == "rest",
     "a YAML file": lambda path: path is not None and path.endswith((".yaml", ".yml")),
@@ -39,7 +39,7 @@ class Row(Settings):
 
 
 class Of(NamedTuple):
-    """What a figure is of."""
+    """Blade, scenes and directions of a figure."""
 
     blade: str | None
     scenes: Sequence[str]
@@ -47,7 +47,7 @@ class Of(NamedTuple):
 
 
 def read(path: str | Path) -> dict[str, Row]:
-    """Rows of a table by name; one with a ``like`` has what it does not say from that row.
+    """Rows of a table by name; one with a ``like`` has its missing keys from that row.
 
     Raises
     ------
@@ -81,7 +81,7 @@ class Figures(NamedTuple):
     explored: Collection[str]  # scenes with a page to explore
     directions: Callable[[str], str]  # of the interface that the scenes of a blade need
     operating: Callable[[str], Mapping[str, float]]  # speeds of a blade by name, rpm
-    blades: Mapping[str, Callable[[str], bool]]  # whether a blade has what a figure needs of it
+    blades: Mapping[str, Callable[[str], bool]]  # whether a blade meets a need of a figure
 
     def of(self, name: str, wildcards: Mapping[str, str]) -> Of:
         """Blade and scenes of a figure, and the directions of their interface."""
@@ -102,7 +102,7 @@ class Figures(NamedTuple):
         Raises
         ------
         SettingsError
-            When its blade or a scene does not have what the figure needs.
+            When its blade or a scene does not meet a need of the figure.
         """
         row, of = self.rows[name], self.of(name, wildcards)
         for fault in self._faults(row, of):
@@ -134,7 +134,7 @@ class Figures(NamedTuple):
         return f"{row.caption} {row.more}".format(blade=of.blade, scene=", ".join(of.scenes))
 
     def configured(self, wanted: Callable[[Row], bool]) -> list[str]:
-        """Names of the wanted figures of configured blades and scenes that have what they need.
+        """Names of the wanted figures of configured blades and scenes whose needs are met.
 
         A row of the same category that is like another for its blade or scene is there instead.
         """
@@ -162,12 +162,12 @@ class Figures(NamedTuple):
         return [{}] if {*row.scenes} <= {*scenes} and row.blade in (None, *blades) else []
 
     def _ready(self, row: Row, of: Of) -> bool:
-        """Whether the sweep, or the design, of each scene has what the figure needs."""
+        """Whether the sweep, or the design, of each scene meets the needs of the figure."""
         designs = {bool(self.delivered[scene].design) for scene in of.scenes}
         return designs <= {"design" in row.needs} and not any(self._faults(row, of))
 
     def _faults(self, row: Row, of: Of) -> Iterator[SettingsError]:
-        """What a figure needs and its blade or scenes do not have."""
+        """Needs of a figure that its blade or scenes do not meet."""
         if row.scenes and not of.scenes:
             fault = f"no scene of blade {of.blade} in workflow/config.yaml has loads to draw"
             yield SettingsError(fault)

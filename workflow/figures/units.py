@@ -20,7 +20,7 @@ class Unit(NamedTuple):
     """A unit, of which 1 in a figure is ``scale``."""
 
     scale: float
-    label: str  # of an axis; of lengths what follows their name
+    label: str  # of an axis; of lengths the text after their name
     number: str = "{:g}"  # format of a number with its unit
 
 

@@ -139,7 +139,7 @@ def gallery(
     for axes, image, (title, *_, view) in zip(panels, images, rows, strict=True):
         axes.imshow(image[seen], interpolation="none")
         axes.set_axis_off()
-        axes.set_anchor("S")  # what is above the picture has room
+        axes.set_anchor("S")  # leaves room above the picture
         axes.set_title(title, linespacing=1.3, pad=14 if names else None)
         middle, *places = pixels(grid, view, np.array([grid.center, *names.values()]))
         for name, place in zip(names, places, strict=True):

@@ -79,7 +79,7 @@ def _printed(axes: Axes, response: Response, part: str) -> None:
 
 @style.styled
 def profiles(sweeps: Sequence[Response]) -> Figure:
-    """Depth over the casing angle at the k = 4 peak, one line for each scene."""
+    """Depth over the casing angle at the EO 4 peak, one line for each scene."""
     drawn, axes = style.subplots(style.SINGLE, 2.6)
     for response, (dashes, colour) in zip(sweeps, LINES, strict=True):
         _profile(axes, response, linestyle=dashes, color=colour)

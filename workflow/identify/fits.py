@@ -1,4 +1,4 @@
-"""What one fit says: how near the best point comes, and ranges of the parameters."""
+"""Results of one fit: distance of the best point, and ranges of the parameters."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -78,7 +78,7 @@ def fit(of: Fit, marched: xr.Dataset, values: Values) -> dict[str, Any]:
 def _posterior(
     of: Weighted, points: Points, values: Values, agrees: NDArray[np.bool_]
 ) -> dict[str, Any]:
-    """Numbers of a posterior; its medoid is one of the points whose k = 4 peaks agree."""
+    """Numbers of a posterior; its medoid is one of the points whose EO 4 peaks agree."""
     supported, ranges, draws = agrees & (of.weights > 0), None, []
     if of.effective >= ENOUGH:
         by = {"weights": of.weights, "method": "inverted_cdf"}

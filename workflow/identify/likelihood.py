@@ -1,7 +1,7 @@
 """Likelihood of the critical speeds that the paper gives (C11), in several readings.
 
 A datum is the shift of a peak, Omega_c over the linear crossing of f1. The paper's speeds have two
-digits: sigma is half a digit of Omega_c over the crossing, for k = 6 over 0.181 in every reading.
+digits: sigma is half a digit of Omega_c over the crossing, for EO 6 over 0.181 in every reading.
 The rounding of the crossings themselves, common to both coatings, is left out.
 """
 
@@ -16,10 +16,10 @@ from numpy.typing import NDArray
 from workflow.identify.table import COATINGS, ORDERS
 from workflow.paper.printed import CONSISTENT, CRITICAL, CROSSING, HALF_DIGIT
 
-# Crossings over which the paper's speeds are taken. It prints 0.17 for k = 6, which contradicts its
-# 0.31 for k = 4 under f1^2 = 1 + B Omega^2 (C10).
+# Crossings over which the paper's speeds are taken. It prints 0.17 for EO 6, which contradicts its
+# 0.31 for EO 4 under f1^2 = 1 + B Omega^2 (C10).
 READINGS = {"printed": CROSSING, "consistent": CONSISTENT, "k = 4": {4: CROSSING[4]}}
-SHIFTS, WITH_ORDER = DATA = ("shifts", "with C12 and C16")  # what is taken as data
+SHIFTS, WITH_ORDER = DATA = ("shifts", "with C12 and C16")  # choices of the data
 FOUR_SHIFTS = ("printed", "consistent")
 K_OF_E1 = (0.45, 4.55)  # the paper does not say K of its figures for E = 1
 
@@ -61,7 +61,7 @@ class Fit:
         return np.nan_to_num((self.deviations(over_crossing) ** 2).sum(axis=1), nan=inf)
 
     def stiffer_is_more(self, observed: xr.Dataset) -> NDArray[np.bool_]:
-        """Whether E = 10 has the higher k = 4 peak (C12) and the deeper wear there (C16)."""
+        """Whether E = 10 has the higher EO 4 peak (C12) and the deeper wear there (C16)."""
         soft, stiff = self.coatings.values()
         higher, deeper = (
             values[:, stiff, 0] > values[:, soft, 0]

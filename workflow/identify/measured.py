@@ -1,4 +1,4 @@
-"""What the paper's other claims compare, at points of the parameters: rows of an experiment."""
+"""Numbers for the paper's other claims, at points of the parameters: rows of an experiment."""
 
 from collections.abc import Iterable, Mapping
 from itertools import product

@@ -1,4 +1,4 @@
-"""Points of the tables that are marched, and the tables that were."""
+"""Points of the tables to be computed, and the computed tables."""
 
 from typing import Any
 
@@ -25,7 +25,7 @@ def table(
 ) -> Points:
     """Points of a table, and the keys of the scene there.
 
-    They are of the prior, or drawn by ``data`` from what the tables before it say.
+    They are of the prior, or drawn by ``data`` from the tables before it.
     """
     new = sobol(number, SEED) if data is None else drawn(marched(points, rows), number, data)
     columns = settings(priors, new, stiffness(rom) / stiffness(reference))
@@ -42,7 +42,7 @@ def csv(table: Points) -> str:
 
 
 def marched(points: list[Points], rows: list[Rows]) -> list[xr.Dataset]:
-    """The tables marched so far: what is ``observed``, and `points` (point, parameter).
+    """The tables computed so far: the values ``observed``, and `points` (point, parameter).
 
     Attribute `data`: that its points were drawn by, of ``likelihood.DATA``; None: by none.
     """

@@ -1,4 +1,4 @@
-"""Posterior of a fit: the marched points with weights.
+"""Posterior of a fit: the computed points with weights.
 
 Points are drawn from the prior, then from emulated posteriors. A point weighs its likelihood over
 the density of all draws there, whichever table it is of: the balance heuristic (Owen & Zhou, J. Am.
@@ -26,7 +26,7 @@ def systematic(weights: ArrayLike, number: int, rng: np.random.Generator) -> NDA
 
 
 class Weighted(NamedTuple):
-    """A posterior of marched points."""
+    """A posterior of computed points."""
 
     weights: NDArray[np.float64]  # (points,), of sum 1; all 0 without any support
     evidence: float  # mean likelihood over the prior

@@ -1,7 +1,7 @@
 """Where to run the engine next: equal parts of the emulated posteriors with either K.
 
 The emulator of a fit's likelihood over the unit cube decides no result: the points that it proposes
-are marched, and weighted with their own likelihood (``workflow.identify.posterior``).
+are computed, and weighted with their own likelihood (``workflow.identify.posterior``).
 """
 
 from collections.abc import Sequence
@@ -29,7 +29,7 @@ LEAST = 0.02  # probability that is assumed at least_chi_squared, of a peak or o
 
 
 def served(prior: xr.Dataset) -> str:
-    """Reading of the data that the draws serve: the better one of all four shifts, or k = 4 alone.
+    """Reading of the data that the draws serve: the better one of all four shifts, or EO 4 alone.
 
     By the least chi squared that the emulator finds. All four shifts are left where it is beyond
     ``LEVEL`` of its distribution.

@@ -63,7 +63,7 @@ WIDTH = 124  # of the lines of a page
 
 
 def answer(found: Mapping[str, Any]) -> str:
-    """Three sentences: how near the paper's shifts come, which K they prefer, what they tell."""
+    """Three sentences: how near the paper's shifts come, the K they prefer, the conclusion."""
     loose, taken = (found["fits"][Fit(K, "printed").name] for K in K_OF_E1)
     consistent = [found["fits"][Fit(K, "consistent").name] for K in K_OF_E1]
     text = ANSWER.format(

@@ -11,7 +11,7 @@ from workflow.identify.likelihood import K_OF_E1
 from workflow.paper.claims import CLAIMS
 from workflow.paper.verdict import HOLDS, judge
 
-# What is not judged at points: the reduced model, densities, steps and times (C01 to C10), the data
+# Claims not judged at points: the reduced model, densities, steps and times (C01 to C10), the data
 # (C11), the tilted tip (C21 to C23) and stress (C24).
 JUDGED = ("C12", "C13", "C14", "C15", "C16", "C17", "C18", "C19", "C20", "C25", "C26")
 

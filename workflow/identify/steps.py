@@ -9,13 +9,13 @@ from math import ceil, log2
 
 from simulate.scene import Scene
 
-STEPS = 1024  # per round
+STEPS = 1024  # per revolution
 FIRM = 4.5e10  # Pa, modulus up to which these serve
 MOST = 8  # largest factor on ``STEPS``
 
 
 def steps_per_round(E: float) -> int:
-    """Steps per round of a coating of modulus ``E`` (Pa): ``STEPS`` times 1, 2, 4 or 8."""
+    """Steps per revolution of a coating of modulus ``E`` (Pa): ``STEPS`` times 1, 2, 4 or 8."""
     times = min(max(E / FIRM, 1.0), MOST)
     return STEPS * 2 ** ceil(log2(times))
 

@@ -93,7 +93,7 @@ def observed(rows: xr.Dataset) -> xr.Dataset:
 
 
 def stiffness(rom: Rom) -> float:
-    """Modal stiffness omega^2 / Phi^2 of mode 1 at xi = 1/16, radial, at the crossing of k = 4."""
+    """Modal stiffness omega^2 / Phi^2 of mode 1 at xi = 1/16, radial, at the crossing of EO 4."""
     omega, Phi = rom.modes(crossing(rom, ORDERS[0]) * 2 * np.pi * rom.f1)
     return float((omega[0] / (rom.rows([LEADING], "r") @ Phi[:, 0])[0]) ** 2)
 

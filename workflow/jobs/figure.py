@@ -15,7 +15,7 @@ from workflow.figures.style import save
 
 
 def draw(module: str, files: Any, png: str, pdf: str, given: dict[str, Any] | None = None) -> None:
-    """Read the files, draw with what is ``given``, and save as PNG and PDF.
+    """Read the files, draw with the values ``given``, and save as PNG and PDF.
 
     ``module``: one with a function `draw`, or with that named behind a colon.
     """
@@ -26,7 +26,7 @@ def draw(module: str, files: Any, png: str, pdf: str, given: dict[str, Any] | No
 
 
 def read(figure: ModuleType, files: Any, function: str = "draw") -> Sequence[Any]:
-    """What a function of a figure draws: its arguments that are files of that name.
+    """Data that a function of a figure draws: its arguments that are files of that name.
 
     Each is read as its type asks for; a ``Response`` with the reduced model ``files.rom``, if there
     is one.

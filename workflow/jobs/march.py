@@ -1,4 +1,4 @@
-"""Runs of a scene at given speeds, and what is decided before them."""
+"""Runs of a scene at given speeds, and the decisions before them."""
 
 from typing import Any
 
@@ -12,7 +12,7 @@ from simulate.sweeps.over_speeds import at_speeds, check_sweep, tell_before
 
 
 def check(scene: Scene, rom: Rom, now: Say) -> None:
-    """Check a scene against its reduced model: what no block of its sweep could march."""
+    """Check a scene against its reduced model: refuse one that no block of its sweep could run."""
     check_sweep(scene, rom, now)
 
 

@@ -11,5 +11,5 @@ def build(blade: Blade, mesh: str, now: Say, source: str | None = None) -> None:
 
 
 def tell_of(summary: MeshSummary, now: Say) -> None:
-    """Tell what was meshed; a warning where the elements are too few."""
+    """Report the mesh; a warning where the elements are too few."""
     now(("" if summary.through >= ENOUGH else WARNING) + summary.blade_line())

@@ -16,7 +16,7 @@ def animate(
     names: dict[str, str],
     animation: str,
 ) -> None:
-    """March the scene round by round, and draw it."""
+    """Run the scene revolution by revolution, and draw it."""
     rub = by_rounds(scene, rom, float(names["speed"]), settings, start)
     title = f"scene {names['scene']}, blade {names['blade']}: {liner_and_tip(scene)}"
     save(rub, title, animation)

@@ -21,16 +21,16 @@ from workflow.paper.printed import (
 )
 from workflow.paper.verdict import Claim, Finding, Numbers, Statement, Value, equal, less, more
 
-INSIGNIFICANT = 0.05  # relative difference of two curves that cannot be told apart in print
+INSIGNIFICANT = 0.05  # relative difference of two curves that look equal in print
 # Of the speeds next to a peak, over f1(0): peaks.within_over_f1 of the paper's scenes. At draws,
-# where only what a claim says is judged, it is coarser.
+# where only statements of claims are judged, it is coarser.
 SPACING = 4e-4
 HARDLY = 0.5  # relative change of a computing time that still counts as independence
 LIKE = 0.1  # relative difference up to which two amplitudes count as equal
 BLUR_DEG = degrees(LOBE_BLUR)  # of the Gaussian that blurs a profile before lobes are counted
 COATING = {"e1": "E = 1", "e10": "E = 10"}
 FALLEN = 0.5  # of its amplitude: a response below has left its peak
-MINOR = 0.05, 0.5  # amplitude of a slight resonance: least, gaps; largest, over that of k = 4
+MINOR = 0.05, 0.5  # amplitude of a slight resonance: least, gaps; largest, over that of EO 4
 
 
 def _peak(numbers: Numbers, part: str, k: int) -> dict[str, Any]:
@@ -178,7 +178,7 @@ def higher_peak(numbers: Numbers) -> Finding:
 
 
 def odd_resonance(numbers: Numbers) -> Finding:
-    """C13: a prominent maximum along k = 5."""
+    """C13: a prominent maximum along EO 5."""
     odd, main = _peak(numbers, "e10", 5), _peak(numbers, "e10", 4)
     return Finding(
         (_rounded("Omega_c of k = 5", odd["Omega_c"], CRITICAL["e10"][5], resolution=SPACING),),
@@ -378,7 +378,7 @@ def above_bare_casing(numbers: Numbers) -> Finding:
 
 
 def growth(numbers: Numbers) -> Finding:
-    """C26: growth at the critical speed found after twenty rounds."""
+    """C26: growth at the critical speed found after twenty revolutions."""
     ratios = numbers["long"]["growth"]
     fallen = [name for name, ratio in ratios.items() if ratio < FALLEN]
     left = f"Wear has detuned {' and '.join(fallen)}: the response has left the peak by then."

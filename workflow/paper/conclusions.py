@@ -1,4 +1,4 @@
-"""What a reader may conclude: which of the paper's claims stand where, and what would tell more."""
+"""Conclusions: the paper's claims that hold, where, and studies that would decide the rest."""
 
 from collections.abc import Mapping, Sequence
 from math import sqrt
@@ -23,7 +23,7 @@ DRAWN = {  # the error is that of the binomial
     "share": 100 * NEARLY_ALL,
     "error": 100 * sqrt(NEARLY_ALL * (1 - NEARLY_ALL) / DRAWS),
 }
-GROUPS = {  # what is said of the claims of each
+GROUPS = {  # text on the claims of each
     "everywhere": "**Hold on each blade where they were judged**, and in at least 90 % of the"
     " draws:",
     "here": "**Hold here, but not everywhere**: on the other blade, or in more than a tenth of the"

@@ -26,7 +26,7 @@ OUTLINE = 201  # points of the tip's profile
 
 
 class FootprintError(ValueError):
-    """A sweep without a footprint to show; the message says what is missing."""
+    """A sweep without a footprint to show; the message names the missing part."""
 
 
 class Footprint(NamedTuple):
@@ -48,12 +48,12 @@ class Footprint(NamedTuple):
 
 
 def at_deepest(path: str | Path, rom: Rom) -> Footprint:
-    """The tip at its largest penetration where the liner of the strip is worn most, at k = 4.
+    """The tip at its largest penetration where the liner of the strip is worn most, at EO 4.
 
     Raises
     ------
     FootprintError
-        When the sweep has no speed near the k = 4 peak, or the liner is not worn there.
+        When the sweep has no speed near the EO 4 peak, or the liner is not worn there.
     """
     runs = load(path)
     peak = peak_of(runs, rom, ENGINE_ORDER)

@@ -20,13 +20,13 @@ from workflow.paper.printed import WORST, E, K
 
 ORDER = "4"  # engine order of the peaks that are compared
 ROUNDS = 200  # ten times the paper's
-WINDOW = 10  # rounds of each Fourier transform
+WINDOW = 10  # revolutions of each Fourier transform
 
 type Case = dict[str, Any]
 
 
 def of_coating(runs: xr.Dataset, rom: Rom, scene: Scene) -> Case:
-    """One coating of the grid, as ``without_twins``; at each peak the twin is marched as well."""
+    """One coating of the grid, as ``without_twins``; at each peak the twin is run as well."""
     found = without_twins(runs, rom, scene)
     peaks = {k: p and p | _predictable(rom, scene, p) for k, p in found["peaks"].items()}
     return found | {"peaks": peaks}
@@ -76,7 +76,7 @@ def long_cases(table: Mapping[str, Any]) -> dict[str, Case]:
 
 
 def growth(scene: Scene, rom: Rom, name: str, case: Mapping[str, Any]) -> dict[str, Any]:
-    """Amplitudes of a coating over the rounds, at its Omega_c.
+    """Amplitudes of a coating over the revolutions, at its Omega_c.
 
     ``scene``: that of the coating; ``case``: its numbers, as of the table of E and K.
 

@@ -1,4 +1,4 @@
-"""Numbers of long times: runs that go on from others, beyond the paper's twenty rounds."""
+"""Numbers of long times: runs that go on from others, beyond the paper's twenty revolutions."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -18,7 +18,7 @@ SWEEPS = {"rest": "from rest", "run_up": "run-up", "run_down": "run-down", "on_w
 def numbers(
     long: list[Sweep], rest: Sweep, run_up: Sweep, run_down: Sweep, on_worn: Sweep
 ) -> dict[str, Any]:
-    """Amplitudes along k = 4 over the rounds, and on ways through its peak; speeds over f1(0).
+    """Amplitudes along EO 4 over the revolutions and on ways through its peak; speeds over f1(0).
 
     ``long``: sweeps at the same speeds, each from where the one before ended; the others go through
     the peak, as ``SWEEPS`` calls them.
@@ -50,7 +50,7 @@ def _way(runs: xr.Dataset) -> dict[str, float]:
 
 
 def table(found: Mapping[str, Any]) -> str:
-    """Two tables: over the rounds, and through the peak."""
+    """Two tables: over the revolutions, and through the peak."""
     head = ["‖Y‖ / gap at Ω / f₁(0) =", *(f"{speed:.3f}" for speed in found["speeds"])]
     lines = [
         [f"after {rounds} revolutions", *(f"{value:.2f}" for value in along)]

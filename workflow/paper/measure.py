@@ -36,7 +36,7 @@ from workflow.paper.peaks import lobes_over_speed, peak
 from workflow.paper.printed import WORST
 
 NEAR = (0.97, 1.25)  # speeds over the crossing of k at which k lobes belong to that resonance
-HIGHEST, SPECTRUM_ROUNDS = 20, 10  # highest frequency of a spectrum over f1(0); its rounds
+HIGHEST, SPECTRUM_ROUNDS = 20, 10  # highest frequency of a spectrum over f1(0); its revolutions
 RESONANT = 0.05  # half-width of a peak over Omega_c
 
 type Numbers = dict[str, Any]
@@ -112,7 +112,7 @@ def _orders_in_harmonics(
 ) -> list[int]:
     """Even engine orders k whose harmonic of the worn profile exceeds those of k - 2 and k + 2.
 
-    Where marks of successive rounds overlap, and lobes cannot be counted, a pattern of k still
+    Where marks of successive revolutions overlap, and lobes cannot be counted, a pattern of k still
     has that harmonic.
     """
     of = np.abs(np.fft.rfft(wear, axis=1))
@@ -120,9 +120,9 @@ def _orders_in_harmonics(
 
 
 def two_five(runs: xr.Dataset, rom: Rom) -> Numbers:
-    """Casing of two and five diameters: lobes at and away from the peaks of k = 4, 5, 6.
+    """Casing of two and five diameters: lobes at and away from the peaks of EO 4, 5, 6.
 
-    Also the range of the angle of the lobes near the peak of k = 5.
+    Also the range of the angle of the lobes near the peak of EO 5.
     """
     peaks = {str(k): peak(runs, rom, k) for k in (4, 5, 6)}
     critical = [p["Omega_c"] for p in peaks.values() if p]
@@ -146,7 +146,7 @@ def _turn(runs: xr.Dataset, Omega_c: float, k: int) -> float:
 
 
 def tip_force(runs: xr.Dataset, rom: Rom) -> Numbers | None:
-    """A sweep with a tilted tip: peaks, force ratio, mode share and entropy at the k = 4 peak.
+    """A sweep with a tilted tip: peaks, force ratio, mode share and entropy at the EO 4 peak.
 
     None if no run near that peak has a result.
     """
@@ -166,7 +166,7 @@ def tip_force(runs: xr.Dataset, rom: Rom) -> Numbers | None:
 
 
 def disorder(u_r: NDArray[np.float64], speed_over_f1: float) -> float:
-    """Entropy of the amplitudes of ``u_r``, of the last ten rounds, up to ``HIGHEST`` f1(0).
+    """Entropy of the amplitudes of ``u_r``, of the last ten revolutions, up to ``HIGHEST`` f1(0).
 
     Of amplitudes instead of energies, since harmonics other than mode 1 have hardly any energy; and
     without a threshold, above which lines would have to be counted.
@@ -203,7 +203,7 @@ def table(grid: Mapping[str, Any]) -> Numbers:
 
 
 def _of_peak(case: Mapping[str, Any], name: str) -> Any:
-    """The value ``name`` of the k = 4 peak; nan without a peak."""
+    """The value ``name`` of the EO 4 peak; nan without a peak."""
     peak = case["peaks"]["4"]
     return peak[name] if peak else np.nan
 
@@ -221,12 +221,12 @@ def _ranks(modulus: Sequence[float], lines: NDArray[np.float64]) -> list[float]:
 
 
 def bare_casing(runs: xr.Dataset, rom: Rom) -> Numbers | None:
-    """The k = 4 peak of the bare casing."""
+    """The EO 4 peak of the bare casing."""
     return peak(runs, rom, 4)
 
 
 def long_run(bare: Numbers | None, cases: Sequence[Mapping[str, Any]]) -> Numbers:
-    """The peak of the bare casing, and the growth of coatings over ten times the rounds."""
+    """The peak of the bare casing, and the growth of coatings over ten times the revolutions."""
     return {
         "rigid": bare,
         "growth": {run["name"]: _growth(run["amplitude"]) for run in cases},
@@ -235,7 +235,7 @@ def long_run(bare: Numbers | None, cases: Sequence[Mapping[str, Any]]) -> Number
 
 
 def _growth(amplitude: list[float | None]) -> float | None:
-    """Amplitude of the last window marched over that after twenty rounds; None where it ended."""
+    """Amplitude of the last window over that after twenty revolutions; None where the run ended."""
     marched = [value for value in amplitude if value is not None]
     return marched[-1] / marched[1] if len(marched) > 1 else None
 

@@ -27,7 +27,7 @@ LOBES = {"e1": (2, (4, 6)), "e10": (2, (4, 6)), "two_five": (5, (4, 5, 6))}
 
 
 def shifts_of(part: str) -> str:
-    """Shifts of a coating at k = 4 and 6, as they are told.
+    """Shifts of a coating at EO 4 and 6, as text.
 
     >>> shifts_of("e10")
     '1.226, 1.176'

@@ -171,7 +171,7 @@ def _label(judged: Value | Statement) -> str:
 
 
 def _found(claim: Claim, numbers: Numbers) -> tuple[Finding, str]:
-    """Our results for a claim, and what they lack: a part that was not run, a missing peak."""
+    """Our results for a claim, and the missing part, if any: one that was not run, or a peak."""
     try:
         return claim.find(numbers), ""
     except (KeyError, TypeError) as missing:

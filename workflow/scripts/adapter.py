@@ -46,9 +46,9 @@ def run(snakemake: Any) -> None:
     """Call the function that the rule names as ``module:function`` in ``params.run``.
 
     It gets those of its arguments that the rule holds, by name and as their types ask for
-    (``argument``): input files, output files, parameters, and what is in ``params.given``;
-    ``files``, all inputs; ``names``, the wildcards; ``tell`` and ``now``, which tell of the work.
-    What it returns is written.
+    (``argument``): input files, output files, parameters, and those in ``params.given``;
+    ``files``, all inputs; ``names``, the wildcards; ``tell`` and ``now``, which report progress.
+    Its result is written.
     """
     name, _, function = snakemake.params.run.partition(":")
     module = import_module(name)
@@ -96,13 +96,13 @@ class Teller:
             self.last = monotonic()
 
     def now(self, line: str) -> None:
-        """Tell what is known once: on a terminal always."""
+        """Report a line once: on a terminal always."""
         print(line, flush=True)
         if self.shows or line.startswith(WARNING):
             self._write(line)
 
     def clear(self) -> None:
-        """Remove the bar, so that what other programs write next stands alone."""
+        """Remove the bar, so that the next line of other programs stands alone."""
         if self.bar:
             self._draw("")
 
@@ -111,7 +111,7 @@ class Teller:
         os.write(self.outside, f"{self.name}: {line}\n".encode())
 
     def _draw(self, shown: str) -> None:
-        """Replace the bar; what is written next begins where it begins."""
+        """Replace the bar; the next text overwrites it."""
         width = os.get_terminal_size(self.outside).columns or len(shown) + 1  # 0: not known
         self.bar = shown[: width - 1]
         os.write(self.outside, f"{CLEARED}{self.bar}\r".encode())
@@ -119,10 +119,10 @@ class Teller:
 
 @contextmanager
 def stage(snakemake: Any) -> Iterator[Teller]:
-    """Redirect stdout and stderr, also of compiled code, to the log; gives what tells of the work.
+    """Redirect stdout and stderr, also of compiled code, to the log; give the ``Teller``.
 
-    The places of the outputs are tried first, and a job that succeeds ends its log with what it
-    used. Errors for users are also written to the terminal, as their message with the YAML file
+    The places of the outputs are tried first, and a job that succeeds ends its log with
+    its CPU time and memory. Errors for users are also written to the terminal, as their message with the YAML file
     that it is about; all others have their traceback in the log.
     Of a job that is killed, or in which a library crashes, a process beside it says so.
     """

@@ -20,8 +20,8 @@ def held(runs: xr.Dataset, rom: Rom, reference: Marched | None) -> dict[str, flo
     """How many numbers are off from the ``reference`` by no more, or by over twice, their +-.
 
     Of the peaks along engine orders; amplitudes are compared with the largest of the reference at
-    the speed of the peak and halfway to those beside it. Mesh and natural modes are the same: what
-    they add to an uncertainty is left out. CPU time is that of the runs beside the peaks.
+    the speed of the peak and halfway to those beside it. Mesh and natural modes are the same:
+    their part of an uncertainty is left out. CPU time is that of the runs beside the peaks.
     """
     if reference is None:
         return {}

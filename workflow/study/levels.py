@@ -38,7 +38,7 @@ def of_group(rows: Sequence[Row], *groups: str) -> pd.DataFrame:
 
 
 def uncertainty(rows: Sequence[Row]) -> pd.DataFrame:
-    """Uncertainty of the reference by scene: what one level coarser or another scheme changes.
+    """Uncertainty of the reference by scene: change by one level coarser or another scheme.
 
     `worst` is inf where neither is known.
     """

@@ -1,4 +1,4 @@
-"""How cost grows: CPU time and memory of jobs of the workflow over what they depend on."""
+"""Growth of cost: CPU time and memory of jobs of the workflow over the quantities that set it."""
 
 import re
 import sys
@@ -17,7 +17,7 @@ from workflow.figures import lines
 from workflow.usage import read_usage
 
 LAST = 3  # points of a fit: growth in the end, not at the start
-LEAST_MB = 20.0  # growth of memory that is told from what loading the libraries takes
+LEAST_MB = 20.0  # least growth of memory distinct from the load of the libraries
 HEAD = ("stage", "over", "from", "to", "CPU (s)", "exponent", "peak memory (MB)", "exponent")
 RUN = "one run"  # panel with several numbers, each over its least value
 PANELS = {  # with their x labels
@@ -99,7 +99,7 @@ def _cells(row: Row) -> list[str]:
 
 
 def draw(study: Sequence[Row]) -> Figure:
-    """Above CPU time, below peak memory, of each stage over what its cost depends on."""
+    """Above CPU time, below peak memory, of each stage over the quantity that sets it."""
     shown = [row for panel in PANELS for row in study if row.get("panel") == panel]
     records = [record for row in shown for record in _records(row)]
     look = {"line": "line", "panel": "panel", "labels": AXES, "log": "xy"}

@@ -1,4 +1,4 @@
-"""Numbers of the study of accuracy and time: what a row errs by against another.
+"""Numbers of the study of accuracy and time: errors of a row against another.
 
 Rows are those of workflow/experiments/trade.yaml and interface.yaml.
 """
@@ -30,7 +30,7 @@ type Row = dict[str, Any]  # plain values, of a JSON file
 
 
 def errors(single: Run, reference: Marched | None) -> Row:
-    """Status, steps per round, size of the model, and errors against the ``reference``.
+    """Status, steps per revolution, size of the model, and errors against the ``reference``.
 
     Relative errors, for lobes the difference of their numbers; None where either run has no result.
     """
@@ -74,7 +74,7 @@ def _known(value: float) -> float | None:
 
 
 def at_peak(runs: xr.Dataset, rom: Rom, reference: Marched | None) -> Row:
-    """Relative error of the critical speed of k = 4 against the ``reference``; None without one."""
+    """Relative error of the critical speed of EO 4 against the ``reference``; None without one."""
     if reference is None:
         return {}
     ours, true = critical(runs, rom), critical(reference.runs, reference.rom)
@@ -82,7 +82,7 @@ def at_peak(runs: xr.Dataset, rom: Rom, reference: Marched | None) -> Row:
 
 
 def critical(runs: xr.Dataset, rom: Rom) -> float:
-    """Omega_c of k = 4 over f1(0): maximum of a parabola; nan where the peak is at an end."""
+    """Omega_c of EO 4 over f1(0): maximum of a parabola; nan where the peak is at an end."""
     found = peak_of(runs, rom, ORDERS[0])
     if found is None or found.at_end:
         return np.nan

@@ -95,14 +95,14 @@ def requirements(rows: Rows) -> str:
 
 
 def with_ratios(rows: Rows, *groups: str) -> pd.DataFrame:
-    """``of_group``, with the ratio of CPU times of a row and of what it is compared with."""
+    """``of_group``, with the ratio of CPU times of a row and of its reference."""
     times, of = {(row["scene"], row["row"]): row["cpu_s"] for row in rows}, of_group(rows, *groups)
     against = [times[pair] for pair in zip(of["scene"], of["against"], strict=True)]
     return of.assign(time_ratio=of["cpu_s"] / against)
 
 
 def fewer_rounds(rows: Rows) -> str:
-    """Error of the amplitude and CPU time of a run, by rounds before those of the spectrum."""
+    """Error of the amplitude and CPU time of a run, by revolutions before those of the spectrum."""
     lines = []
     for name, runs in of_group(rows, "rounds").set_index("scene").groupby("row", sort=False):
         of_scenes = runs.reindex(SCENES)
