@@ -137,7 +137,7 @@ def limits(speeds: NDArray[np.float64]) -> tuple[float, float]:
 def over_speeds(
     speeds: NDArray[np.float64], values: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Edges (2 n,) of the cells and of the intervals between them, and masked values (2 n - 1, ...)."""
+    """Edges (2 n,) of the cells and the intervals between, and masked values (2 n - 1, ...)."""
     spread = np.full((2 * len(values) - 1, *values.shape[1:]), np.nan)
     spread[::2] = values
     return np.ravel(spans(speeds), order="F"), np.ma.masked_invalid(spread)

@@ -1,1 +1,1 @@
-"""Identification of parameters that the paper leaves open, from the critical speeds that it gives."""
+"""Identification of parameters that the paper leaves open, from the critical speeds it gives."""

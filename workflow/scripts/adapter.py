@@ -122,8 +122,8 @@ def stage(snakemake: Any) -> Iterator[Teller]:
     """Redirect stdout and stderr, also of compiled code, to the log; give the ``Teller``.
 
     The places of the outputs are tried first, and a job that succeeds ends its log with
-    its CPU time and memory. Errors for users are also written to the terminal, as their message with the YAML file
-    that it is about; all others have their traceback in the log.
+    its CPU time and memory. Errors for users are also written to the terminal, as their message
+    with the YAML file that it is about; all others have their traceback in the log.
     Of a job that is killed, or in which a library crashes, a process beside it says so.
     """
     outside = os.dup(2)
