@@ -26,7 +26,7 @@ the prediction/correction.
 from importlib import import_module
 from typing import Any
 
-FACE = {  # what `from simulate import ...` gives, each loaded when it is asked for
+FACE = {  # names that `from simulate import ...` gives, each loaded on first use
     "Rom": "rom.model",
     "Scene": "simulate.scene.scene",
     "Law": "simulate.scene.law",

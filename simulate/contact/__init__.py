@@ -1,1 +1,1 @@
-"""What the rods under the tip do: strips, gaps, rods, their forces."""
+"""Contact of the tip with the liner: strips, gaps, rods, their forces."""

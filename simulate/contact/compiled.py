@@ -1,7 +1,7 @@
-"""Compilation of the march with numba.
+"""Compilation of the kernel with numba.
 
 Compiled functions get their arrays in named tuples and are inlined into each other. These tuples
-also hold the functions of the scheme and of the law; the march is compiled for each pair of them.
+also hold the functions of the scheme and of the law; the kernel is compiled for each pair of them.
 No compiled function allocates an array: numba's reference counts (``_nrt``), hundreds of atomic
 operations in a step of contact, are switched off.
 """
@@ -18,7 +18,7 @@ from simulate.contact.kernel_file import kernel
 
 FLAGS = "C_CONTIGUOUS", "F_CONTIGUOUS", "WRITEABLE", "ALIGNED"  # of which array types are made
 _KERNELS: dict[Any, Callable] = {}  # by function and layout of its arguments
-# an index, or none yet: what takes a literal 0 is compiled once more, for the literal
+# an index, or none yet: a function that takes a literal 0 is compiled again, for the literal
 FIRST = np.int64(0)
 SUM_IN_ANY_ORDER = {"reassoc", "contract", "nsz"}  # vector sums; still IEEE for inf and nan
 
@@ -44,7 +44,7 @@ class Inner(CPUDispatcher):
 
 
 def decorator(of: type[CPUDispatcher], **options: Any) -> Callable[[Callable], Callable]:
-    """Decorator that compiles with ``options``; NUMBA_DISABLE_JIT=1: the march in Python."""
+    """Decorator that compiles with ``options``; NUMBA_DISABLE_JIT=1: plain Python."""
     if numba.config.DISABLE_JIT:
         return lambda function: function
     return partial(of, targetoptions=OPTIONS | options)
@@ -54,7 +54,7 @@ compiled = decorator(Inner, forceinline=True, **WRAPPERS)
 compiled_sums = decorator(Inner, forceinline=True, fastmath=SUM_IN_ANY_ORDER, **WRAPPERS)
 # not inlined: a function that runs long enough to have the registers for itself
 compiled_apart = decorator(Inner, fastmath=SUM_IN_ANY_ORDER, **WRAPPERS)
-compiled_kernel = decorator(CPUDispatcher)  # what Python calls
+compiled_kernel = decorator(CPUDispatcher)  # called from Python
 
 
 def records(shape: int | tuple[int, ...], of: np.dtype) -> np.recarray:
@@ -66,9 +66,9 @@ def for_types_of(function: Any, *arguments: Any) -> Callable:
     """Return ``function`` compiled for the types of ``arguments``, from the cache if it is there.
 
     Calls of it skip numba's dispatch on types, which takes as long as a thousand steps. Each set of
-    types is told from the ``layout`` of the arguments: ``numba.typeof`` takes as long again.
+    types is known by the ``layout`` of the arguments: ``numba.typeof`` takes as long again.
     """
-    if not isinstance(function, CPUDispatcher):  # the march in Python
+    if not isinstance(function, CPUDispatcher):  # plain Python
         return function
     known = function, layout(arguments)
     if known not in _KERNELS:
@@ -78,7 +78,7 @@ def for_types_of(function: Any, *arguments: Any) -> Callable:
 
 
 def layout(value: Any) -> Any:
-    """What decides the type that numba gives to ``value``: equal for values of the same type.
+    """Key of the type that numba gives to ``value``: equal for values of the same type.
 
     >>> layout((1.0, np.zeros(3))) == layout((2.0, np.zeros(5)))
     True

@@ -5,7 +5,7 @@ forecast), would be at v_i without force; with the compliance C of the interface
 
     w = v - C F(w)
 
-where F_i(w_i) is what strip i bears: it grows with w_i, but is neither convex nor smooth (onset,
+where F_i(w_i), the force on strip i, grows with w_i, but is neither convex nor smooth (onset,
 yield), or is the reaction of a rigid casing. C is positive semidefinite, so w minimises a convex
 energy and is unique; with more strips than patches C is singular, and the forces are unique only
 over compressible rods. One strip alone is a scalar equation in a bracket. Several are found by
@@ -38,7 +38,7 @@ TOLERANCE = 1e-13  # of the displacements that are looked for
 ULP = 2.3e-16  # round-off of a depth in the liner, over its thickness
 FEW = 10  # Newton's steps in the places
 DESCENTS = 500  # of the energy; none in most steps, 61 in the worst of 32,000 random ones
-FAR = 1e300  # of what is allowed: a finite residual where nothing is
+FAR = 1e300  # of the tolerance: a finite residual where the tolerance is 0
 LEAST_SHARE = 1e-14  # of the diagonal
 FLAT_ENOUGH = 0.5  # of the slope of the energy, which is left at the end of a step down
 CUTS = 200  # of a bracket: more than a double has bits
@@ -71,7 +71,7 @@ AT_STRIP = np.dtype(
 class Solver(NamedTuple):
     """Unknowns of a step: the first ``n`` are those of the strips that may bear.
 
-    What sums and eliminations run over lies next to each other.
+    Entries of sums and eliminations lie next to each other.
     """
 
     unknowns: np.recarray  # (strips,), UNKNOWN
@@ -125,9 +125,9 @@ def solve_strip(strips, covered, i, z, c, top, F):
 
 @compiled
 def residual(strips, covered, solver, n, share):
-    """Residual R(z) - F of the active strips, and the largest over what is allowed.
+    """Residual R(z) - F of the active strips, and the largest over its tolerance.
 
-    Allowed is what round-off does of the displacements that add up to z, which may cancel, and
+    The tolerance is the round-off of the displacements that add up to z, which may cancel, and
     of the depths of worn rods, which may be far more than a blade moves.
     """
     worst, blur = 0.0, ULP * strips.thickness
@@ -163,7 +163,7 @@ def eliminate(A, n):
 
 @compiled
 def substitute(A, x, n):
-    """Solve A x = b for the eliminated A; b is what ``x`` holds before."""
+    """Solve A x = b for the eliminated A; ``x`` holds b before."""
     for p in range(n):
         value = x[p]
         for q in range(p + ONE, n):
@@ -301,7 +301,7 @@ def places_under_forces(solver, n):
 
 @compiled
 def misplaced(strips, covered, solver, n):
-    """Forces F(w) with their slopes, and v - C F - w; the largest of these over what is allowed."""
+    """Forces F(w) with their slopes, and v - C F - w; the largest of these over its tolerance."""
     worst, blur = 0.0, ULP * strips.thickness
     F, slope, change = solver.F, solver.slope, solver.change
     for p in range(n):

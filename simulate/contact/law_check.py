@@ -1,4 +1,4 @@
-"""Check of a liner law against what the march relies on.
+"""Check of a liner law against the assumptions of the computation.
 
 The law is loaded from a fresh rod through strains up to 0.9; at each of them its stress, plastic
 strain and tangent are compared with each other, with unloading, and with its plastic work.
@@ -40,7 +40,7 @@ class Point(NamedTuple):
 
 @cache
 def fault(law: Law) -> str | None:
-    """First assumption of the march that ``law`` does not meet, with the strain; None if none."""
+    """First assumption that ``law`` does not meet, with the strain; None if none."""
     last, taken, modulus = Point(0.0, 0.0, 0.0, 0.0, 0.0), 0.0, None
     for eps in STRAINS.tolist():
         where = f"at a total strain of {eps:.3g}, from a plastic strain of {last.after:.3g}"
@@ -50,7 +50,7 @@ def fault(law: Law) -> str | None:
             return f"stress: {error}: {THREE}, {where}"
         now = Point(eps, last.after, sigma, after, tangent)
         taken += (last.sigma + sigma) / 2 * (eps - last.eps)
-        modulus = modulus or law.modulus  # of what returns three numbers
+        modulus = modulus or law.modulus  # of a law that returns three numbers
         try:
             message = next(_faults(law, modulus, last, now, taken), None)
         except (TypeError, ValueError) as error:
@@ -108,7 +108,7 @@ def _tangent_faults(law: Law, modulus: float, now: Point) -> Iterator[str]:
 
 
 def compile_fault(law: Law, error: Exception) -> str:
-    """Why ``law`` cannot be compiled, in one line, from what numba says in many."""
+    """Reason why ``law`` cannot be compiled, in one line, from the lines of numba's error."""
     cause = CAUSE.search(str(error))
     reason = cause[0].strip() if cause else str(error).strip().splitlines()[0]
     return f"liner.law: {type(law).__name__}: {reason}; {COMPILED}"

@@ -1,4 +1,4 @@
-"""Energy ledger of a run: what the casing puts in, what the liner and the blade do with it.
+"""Energy ledger of a run: work of the casing, and its use by liner and blade.
 
 Each step is taken in two moves: first the casing brings the rods under the tip, at the old
 displacement; then the blade moves. With psi(eps) the elastic energy and plastic work that take a
@@ -12,7 +12,7 @@ rod from its state before the step to strain eps, summed over the rods under the
     friction        work of the tangential forces on the blade, where the tip slides with friction
     numerical       work - friction + elastic + plastic + released - casing
 
-No term is found by subtraction but the last, which is what the scheme creates (> 0) or loses.
+Only the last term is found by subtraction: the energy that the scheme creates (> 0) or loses.
 Blade alone: energy(end) - energy(start) + damping = work, to round-off, with
 
     central differences  E(n+1/2) = w.M w/2 + u_n.K u_{n+1}/2, w = (u_{n+1} - u_n)/h,

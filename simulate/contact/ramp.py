@@ -1,8 +1,8 @@
-"""Share a(t) of the casing distortion over the rounds: a smooth step, or a table.
+"""Share a(t) of the casing distortion over the revolutions: a smooth step, or a table.
 
-A table is linear between its rounds and constant after the last: a casing that closes, opens, or
-closes and opens again. The energy of each change is booked where it happens: as work of the casing
-on the rods under the tip, at the blade's displacement (``contact.ledger``).
+A table is linear between its revolutions and constant after the last: a casing that closes, opens,
+or closes and opens again. The energy of each change is booked where it happens: as work of the
+casing on the rods under the tip, at the blade's displacement (``contact.ledger``).
 """
 
 from typing import Any, NamedTuple
@@ -17,9 +17,9 @@ from simulate.scene.tables import RampTable
 class Ramp(NamedTuple):
     """Share of the casing distortion as the kernel reads it."""
 
-    share: Any  # compiled: of numbers and rounds
+    share: Any  # compiled: of numbers and revolutions
     bounds: Any  # compiled: least and largest share between two times
-    numbers: Any  # float, rounds of the smooth step, or NDArray (2, points), rounds and factors
+    numbers: Any  # float, length of smooth step, or NDArray (2, points), revolutions and factors
 
     def at(self, rounds: NDArray[np.float64]) -> NDArray[np.float64]:
         """Shares at the times ``rounds``, for pictures."""
@@ -71,7 +71,7 @@ def share(table, rounds):
 
 @compiled
 def bounds(table, first, last):
-    """Least and largest factor between the rounds ``first`` and ``last``."""
+    """Least and largest factor between the revolutions ``first`` and ``last``."""
     one, other = share(table, first), share(table, last)
     low, high = min(one, other), max(one, other)
     for k in range(table.shape[1]):

@@ -1,7 +1,7 @@
-"""The law of a rod as the kernel calls it: compiled into the march, or through pointers.
+"""Law of a rod as the kernel calls it: compiled into the kernel, or through pointers.
 
-The march is compiled anew for each law that is compiled into it, and is then the fastest. Through
-pointers one march serves all laws whose parameters are numbers, at some 1.6 times its time.
+The kernel is compiled anew for each law that is compiled into it, and is then the fastest. Through
+pointers one kernel serves all laws whose parameters are numbers, at some 1.6 times its time.
 """
 
 from collections.abc import Callable
@@ -35,16 +35,16 @@ def _compiled(function: Callable) -> Callable:
 
 
 def rod_law(law: type[Law], parameters: Any, by_pointers: bool = False) -> RodLaw:
-    """Formulas of a law, to be compiled into the march; ``parameters`` as its ``stress`` reads.
+    """Formulas of a law, to be compiled into the kernel; ``parameters`` as its ``stress`` reads.
 
-    ``by_pointers``: compiled, for a march that calls them; parameters are then numbers.
+    ``by_pointers``: compiled, for a kernel that calls them; parameters are then numbers.
 
     Raises
     ------
     numba.core.errors.NumbaError
         Where they cannot be compiled for calls.
     """
-    if not by_pointers or numba.config.DISABLE_JIT:  # the march in Python needs no pointers
+    if not by_pointers or numba.config.DISABLE_JIT:  # plain Python needs no pointers
         return RodLaw(parameters, _compiled(law.stress), _compiled(law.plastic_work))
     values, of = np.array(parameters, float), type(parameters)
     work = _pointer(law.plastic_work, of, float64)

@@ -8,7 +8,7 @@ the step before; then the blade moves. The force of the second move is a mean of
 
     mean over the way   [psi(end) - psi(start)] / way, psi the elastic energy and plastic work,
 
-so with w_end = 0 the blade pays exactly what the rods receive (a discrete gradient, Gonzalez 1996).
+so with w_end = 0 the blade pays exactly the work on the rods (a discrete gradient, Gonzalez 1996).
 For a force that grows with the penetration the value at the end is at least as much: no w_end
 creates energy. Within the step a rod follows the curve of its state before it both ways: the tip
 may pass more rods in a step than bear at a time, and those that come while it retreats were never
@@ -324,7 +324,7 @@ def press(strips, covered, eps_p, i, w, w_from, energies):
         yielded = max(after, rod.after)
         kept = worn_to(strips, covered, i, k, w_from, w, 1.0, eps_p[i, j], yielded)
         wear = plastic_work(law, eps_p[i, j], kept)
-        # a rod keeps what it yields under its centre: from there it bears next
+        # a rod keeps its yield under its centre: from there it bears next
         if kept != after or k == nu:
             received = rod.stored + plastic_work(law, before, after)
             rod.stored = psi(law, eps, kept) if part > 0.0 and eps > 0.0 else 0.0

@@ -2,7 +2,7 @@
 
 Strip i has nu rods, rod j centred at theta_j = 2 pi j / nu in the casing frame. The footprint
 covers ``length`` rods of a strip, at the two ends a part of one. A footprint shorter than a rod, or
-than what the blade passes in a step, is lengthened to that, and A_i reduced: the force stays.
+than the blade's way in a step, is lengthened to that, and A_i reduced: the force stays.
 """
 
 from math import floor
@@ -66,7 +66,7 @@ def largest_over_window(d: NDArray[np.float64], m: int) -> NDArray[np.float64]:
 
 @compiled
 def rod_under(strips, i, step):
-    """First rod of the window on strip ``i`` at ``step`` of the round (0 to steps per round)."""
+    """First rod of the window on strip ``i`` at ``step`` of the revolution, from 0."""
     return int(strips.first[i] + step * strips.advance) % strips.d.size
 
 
@@ -128,7 +128,7 @@ def covered_share(strips, k, passed, slid):
 
 @compiled
 def covered_middle(strips, k, passed):
-    """Distance from the camber line of the middle of what is covered of rod ``k``, rods."""
+    """Distance from the camber line of the middle of the covered part of rod ``k``, rods."""
     x, half = offset(strips, k, passed), strips.length / 2
     return (max(x - 0.5, -half) + min(x + 0.5, half)) / 2
 

@@ -2,12 +2,12 @@
 
 S is the speed of a pattern past the casing in the sense of rotation, rad/s; the rods of the liner
 stay where they are in the casing, and move in and out with it. S = Omega turns with the blade, as
-the orbit of an unbalanced rotor (n = 1) does; time begins with the first round.
+the orbit of an unbalanced rotor (n = 1) does; time begins with the first revolution.
 
 In each step of contact the distortion is set on the rods near the tip, at the time at which the
 scheme takes its rods. Within the step the casing moves on evenly: its way counts where a rod is
-worn before or after that time. What cannot touch is told from the largest of each harmonic over
-window and time.
+worn before or after that time. Displacements that cannot touch follow from the largest of each
+harmonic over window and time.
 """
 
 from typing import Any, NamedTuple
@@ -24,7 +24,7 @@ MIDDLE, END, STEP = range(3)  # rows of ``now``: at the time of the step's rods,
 class Waves(NamedTuple):
     """Travelling harmonics as the kernel reads them, and its functions; H of them."""
 
-    begin: Any  # compiled: phases at the start of a round
+    begin: Any  # compiled: phases at the start of a revolution
     lower: Any  # compiled: lowers the displacements that meet no rod
     follow: Any  # compiled: sets the distortion of the rods near the tip
     came: Any  # compiled: how far the casing comes in a step, m
@@ -36,7 +36,7 @@ class Waves(NamedTuple):
     order: NDArray[np.float64]  # (H,)
     phase: NDArray[np.float64]  # (H,), rad
     turn: NDArray[np.float64]  # (H,), rad, n S h
-    at: NDArray[np.float64]  # (H,), rad, n S t - phase at the start of the round
+    at: NDArray[np.float64]  # (H,), rad, n S t - phase at the start of the revolution
     now: NDArray[np.float64]  # (3, 2, H), cosine and sine of n S t - phase in the step
     way: NDArray[np.float64]  # (nu,), m, by which the casing comes in the step
 
@@ -63,7 +63,7 @@ def does_not_come(strips, at, k):
 
 
 def met(strips: Any) -> NDArray[np.float64]:
-    """Distortion (nu,), m, of each rod when the blade passes it in the first round; share 1."""
+    """Distortion (nu,), m, of each rod as the blade passes it in the first revolution; share 1."""
     waves = strips.waves
     if not waves.order.size:
         return strips.d
@@ -80,7 +80,7 @@ def farthest(strips: Any) -> float:
 
 @compiled
 def begin(strips, steps):
-    """Phases at the start of a round, ``steps`` after the first."""
+    """Phases at the start of a revolution, ``steps`` after the first."""
     waves = strips.waves
     for h in range(waves.order.size):
         waves.at[h] = (steps * waves.turn[h] - waves.phase[h]) % (2 * np.pi)

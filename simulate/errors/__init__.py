@@ -1,1 +1,1 @@
-"""How sure a number is: what a run shows, and its second runs."""
+"""Uncertainty of numbers: observables of a run, and its second runs."""

@@ -2,15 +2,15 @@
 
 Step, rods and strips are chosen from pilot runs at some of the speeds: first a step in which the
 tip passes no more than its footprint and which resolves contact, then, where a coarser companion
-run (``errors.companion``) says that the error exceeds the accuracy, what the errors of step,
-strips and reduced model ask for. There are as many rods as steps. Patches and natural modes belong
-to the reduced model. Where they, or the most strips, err too much for an accuracy, it is refused:
-only once a run misses it on the finest steps and strips, too, since on long steps and few strips
-model and strips seem to err by more than they do. Each run of the sweep has a companion that is
-coarser in all of these. If the estimated error exceeds the accuracy, the run is repeated with
-shorter steps; if it still does, the run is `sensitive`. The
-error of the mesh is estimated separately, from frequencies and compliances on a coarser mesh
-(``mesh-error.json``); a mesh whose error exceeds the accuracy is refused.
+run (``errors.companion``) says that the error exceeds the accuracy, the values for which the errors
+of step, strips and reduced model ask. There are as many rods as steps. Patches and natural modes
+belong to the reduced model. Where they, or the most strips, err too much for an accuracy, it is
+refused: only once a run misses it on the finest steps and strips, too, since on long steps and few
+strips model and strips seem to err by more than they do. Each run of the sweep has a companion that
+is coarser in all of these. If the estimated error exceeds the accuracy, the run is repeated with
+shorter steps; if it still does, the run is `sensitive`. The error of the mesh is estimated
+separately, from frequencies and compliances on a coarser mesh (``mesh-error.json``); a mesh whose
+error exceeds the accuracy is refused.
 """
 
 from dataclasses import dataclass, field, fields, replace
@@ -59,7 +59,7 @@ NOT_KNOWN = (
     "accuracy: of a reduced model from elsewhere the errors against its full model and of its mesh "
     "are not known; the accuracy is that of step, rods, strips, patches and modes"
 )
-MOST_STEPS, MOST_RODS = 2**20, 2**21  # per round
+MOST_STEPS, MOST_RODS = 2**20, 2**21  # per revolution
 
 _error = attrgetter("largest_error")  # of a run
 
@@ -225,7 +225,7 @@ def _finer(scene: Scene, rom: Rom, now: Fineness, parts: Parts) -> tuple[Finenes
 def _require_finest(worst: Run, scene: Scene, rom: Rom, coarse: Coarser, parts: Parts) -> None:
     """Refuse an accuracy that the ``worst`` run misses with the finest steps and strips, too.
 
-    ``parts``: of that run. Where model or strips err too much by them, it is marched anew with
+    ``parts``: of that run. Where model or strips err too much by them, it is repeated with
     shorter steps and most strips: on long steps the coarser model can move in another way.
 
     Raises
@@ -308,7 +308,7 @@ def _converging(before: dict[float, Run], now: dict[float, Run], growth: float) 
 
 
 def _around(scene: Scene, rom: Rom) -> float:
-    """Footprints in a round."""
+    """Footprints in a revolution."""
     return float(2 * np.pi * rom.camber[:, 0].max() / scene.liner.footprint_m)
 
 

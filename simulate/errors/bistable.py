@@ -48,7 +48,7 @@ def jump(
 ) -> tuple[Numbers, Numbers] | None:
     """Numbers on both sides of a jump between models; None without one.
 
-    The interval with the larger change is halved, ``HALVINGS`` times. What changes are those of
+    The interval with the larger change is halved, ``HALVINGS`` times. Changes are those of
     ``TELL_APART``.
 
     Parameters

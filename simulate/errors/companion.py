@@ -34,7 +34,7 @@ SAFETY = 1.25  # of an estimated error
 TIMES = (STEP_RATIO**2 - 1) / SAFETY  # difference from a companion of twice the step, in errors
 # difference from a run with half the step and widths, in errors; of two runs no order is seen
 FINER_TIMES = (1 - 1 / STEP_RATIO**2) / 1.5
-LEAST_SAMPLES = 64  # per round, as in ``Record``
+LEAST_SAMPLES = 64  # per revolution, as in ``Record``
 
 type Coarser = tuple[Rom, NDArray[np.float64]]  # as ``rom.coarser`` makes it of a model
 
@@ -81,7 +81,7 @@ class Fineness:
         )
 
     def scene(self, scene: Scene) -> Scene:
-        """The scene, marched piecewise-exact with these steps, rods and strips.
+        """The scene, computed piecewise-exact with these steps, rods and strips.
 
         With fewer samples if the steps are no multiple of all of them.
         """
@@ -180,7 +180,7 @@ def quick_times(runs: Iterable[Run], coarser: Coarser) -> dict[str, float]:
 
 
 def multiple_of_samples(scene: Scene, steps: float) -> int:
-    """Least steps per round from ``steps`` on that the samples of run and companion divide."""
+    """Least multiple of the samples of run and companion from ``steps`` per revolution on."""
     samples = scene.record.samples_per_round
     thinned = samples % QUICK_STEP_RATIO == 0 and samples // QUICK_STEP_RATIO >= LEAST_SAMPLES
     unit = samples if thinned else QUICK_STEP_RATIO * samples

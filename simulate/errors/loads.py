@@ -1,12 +1,12 @@
-"""What a rub does to rotor and casing: force, torque, worn volume, opening of the clearance.
+"""Loads of a rub on rotor and casing: force, torque, worn volume, mean worn depth.
 
 Under a flat tip the torque that keeps the rotor at its speed follows from the energy ledger: at
 constant Omega the casing, which turns past the blade, does the work T Omega dt on the rods, so that
-the mean torque of a round is that work over 2 pi. While the casing distorts, the work of its growth
-on the rods under the tip is part of it. With a profile and its tangential force it is the moment of
-that force: there the ledger's error goes with the step, as rods leave at the depth of their last
-step. Friction adds its moment. With a profile but no tangential force, and with harmonics of the
-casing that travel, which do work of their own, the model has no torque.
+the mean torque of a revolution is that work over 2 pi. While the casing distorts, the work of its
+growth on the rods under the tip is part of it. With a profile and its tangential force it is the
+moment of that force: there the ledger's error goes with the step, as rods leave at the depth of
+their last step. Friction adds its moment. With a profile but no tangential force, and with
+harmonics of the casing that travel, which do work of their own, the model has no torque.
 """
 
 import numpy as np
@@ -33,7 +33,7 @@ def torque(casing_work: NDArray[np.float64], rounds: float = 1.0) -> NDArray[np.
 
 
 def torque_of_rounds(scene: Scene, rom: Rom, outcome: Outcome) -> NDArray[np.float64]:
-    """Mean torque (rounds,), N m, in each round of a run; nan where it was not marched.
+    """Mean torque (revolutions,), N m, in each revolution of a run; nan where not computed.
 
     With a tangential force or friction the forces must have been recorded.
     """
@@ -77,9 +77,9 @@ def mean_opening(
 
 
 def mean_force(on_shares: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Mean force (...,), N, on the whole chord, over the rounds marched.
+    """Mean force (...,), N, on the whole chord, over the revolutions computed.
 
-    ``on_shares`` (..., rounds, shares), N: means of each round on the parts of the chord; nan in
-    rounds that were not marched.
+    ``on_shares`` (..., revolutions, shares), N: means of each revolution on the parts of the chord;
+    nan in revolutions that were not computed.
     """
     return np.nanmean(on_shares.sum(axis=-1), axis=-1)

@@ -11,7 +11,7 @@ from rom.model import Rom
 
 
 class Doubt(NamedTuple):
-    """What is not known of a model, relative."""
+    """Relative uncertainties of a model."""
 
     basis: float | None  # largest error in the check of the reduced model; None without one
     mesh: float | None  # of the mesh; None where no coarser one was tried

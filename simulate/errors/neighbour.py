@@ -1,4 +1,4 @@
-"""A second run that tells something about a first one: what of it is otherwise.
+"""Second runs beside a first one: their names and changes.
 
 Workflows import this module to list their jobs: it imports no compiled code.
 """
@@ -16,14 +16,14 @@ def same(of: Any) -> Any:
 
 
 class Neighbour(NamedTuple):
-    """What differs in a second run; each change is the identity where nothing changes."""
+    """Changes of a second run; each is the identity where nothing changes."""
 
     name: str
     scene: Callable = same  # Scene -> Scene
     rom: Callable = same  # Rom -> Rom: a model made from that of the run
     setup: Callable = same  # Setup -> Setup
     blade: Callable | None = None  # Blade -> Blade: its reduced model has to be made
-    steps: int = 1  # times the steps per round
+    steps: int = 1  # times the steps per revolution
     along: bool = False  # at the same speed over f1(0) of the other model, not in rad/s
     cost: float = 1.0  # of the run, over that of the first
     remeshed: bool = False  # the blade needs another mesh

@@ -1,9 +1,10 @@
 """Second runs beside a run: a twin, half and a quarter of its step, other models; its status.
 
 A twin is the same run with all gaps changed by 1e-10, far less than any manufacturing tolerance.
-The march is deterministic, so that only this change makes the two differ. Where they differ by more
-than 1 %, the motion is chaotic: the results hold for these exact gaps only, and another blade's
-will differ. Reference: Shaw and Holmes 1983, a periodically forced piecewise linear oscillator.
+The computation is deterministic, so that only this change makes the two differ. Where they differ
+by more than 1 %, the motion is chaotic: the results hold for these exact gaps only, and another
+blade's will differ. Reference: Shaw and Holmes 1983, a periodically forced piecewise linear
+oscillator.
 
 The error of the step is bounded by runs with half and, in doubt, a quarter of it. Central
 differences are of order one in contact: halving the step halves the error, so that the error is
@@ -12,9 +13,9 @@ on hard liners its order is lower, too. The bound is that of order one for both,
 factor of 1.5 (Roache 1994, grid convergence index).
 
 A bound with such a factor stops runs that are right by little, and of two runs no order can be
-seen. So where the bound is near what may be stated, a third run marches a quarter of the step. What
-it is off itself is at most what the last halving changed, if the order is at least one: the bound
-is the change from the run to the third, and that of the last halving.
+seen. So where the bound is near its limit, a third run takes a quarter of the step. Its own error
+is at most the change by the last halving, if the order is at least one: the bound is the change
+from the run to the third, and that of the last halving.
 
 A contact shorter than a step may be seen, or missed, by both runs alike, since they share every
 second instant. Its steps then are as many in both, though the time in contact should be the same:
@@ -87,9 +88,9 @@ def judged(run: Run, met: bool = True) -> Run:
 
 
 def halved(run: Run, sensitive: bool = False) -> tuple[dict[str, float], float]:
-    """March with half the step: bounds of relative errors by observable, and the one that counts.
+    """Run with half the step: bounds of relative errors by observable, and the one that counts.
 
-    With a quarter of the step, too, where the bounds are near 0.1. What counts is the largest; inf
+    With a quarter of the step, too, where the bounds are near 0.1. The largest counts; inf
     where the run, or that with half the step, fails, where they end differently, and where the
     share of steps with contact changes by over a quarter. For a ``sensitive`` run half is enough.
     """

@@ -1,4 +1,4 @@
-"""What a run shows: its observables and numbers, and the relative differences of two runs.
+"""Observables and numbers of a run, and the relative differences of two runs.
 
 Observables are arrays, and runs are compared by them: twins, half steps, companions, references.
 Numbers are single values: those of peaks, of the tables of designs and of studies.
@@ -41,11 +41,11 @@ NUMBERS = {  # of a run: unit, meaning
 
 
 def observables(run: Run, samples: int | None = None, rods: int | None = None) -> Observables:
-    """What is recorded of a run, by name, at ``samples`` and ``rods`` per round (its own if None).
+    """Records of a run, by name, at ``samples`` and ``rods`` per revolution (None: of the run).
 
     `spectrum` (bins,), m, without bin 0; `wear` (eighths, rods), m, mean over each eighth of the
     chord, linear between rods; `history` (time, places) and `states` (time, n), m; `force_peak`
-    (rounds marched, eighths), N.
+    (revolutions computed, eighths), N.
     """
     record, outcome = run.scene.record, run.outcome
     samples = samples or record.samples_per_round
@@ -114,7 +114,7 @@ def error(value: ArrayLike, reference: ArrayLike) -> float:
 
 
 def last_spectrum(run: Run) -> NDArray[np.float32]:
-    """Amplitudes of u_r at xi = 1/16 over the rounds recorded, m, as files hold them."""
+    """Amplitudes of u_r at xi = 1/16 over the revolutions recorded, m, as files hold them."""
     samples = run.scene.record.spectrum_rounds * run.scene.record.samples_per_round
     return spectrum(run.outcome.u_r[-samples:, 0]).astype(np.float32)
 

@@ -1,4 +1,4 @@
-"""Runs: what each is marched from, and what is known of it afterwards."""
+"""Runs: the inputs of each, and its errors and departures."""
 
 from dataclasses import dataclass, field, replace
 from math import ceil
@@ -23,12 +23,12 @@ def as_long(scene: Scene, rounds: float) -> Scene:
 
 @dataclass(frozen=True)
 class Case:
-    """What a run is marched from."""
+    """Inputs of a run."""
 
     scene: Scene
     rom: Rom
     setup: Setup
-    left: Left | Worn | None = None  # what it starts from
+    left: Left | Worn | None = None  # start of the run
 
     def beside(self, other: Neighbour) -> "Case":
         """The case of a second run.
@@ -52,21 +52,21 @@ class Case:
         return Case(scene, rom, other.setup(setup), self.left)
 
     def march(self) -> "Run":
-        """March it."""
+        """Run the case."""
         return Run(**vars(self), outcome=march(self.scene, self.setup, self.left))
 
 
 @dataclass(frozen=True, kw_only=True)
 class Run(Case):
-    """A run that is marched, with what second runs tell of it."""
+    """A run that is done, with the findings of its second runs."""
 
     outcome: Outcome
     departures: dict[str, float] = field(default_factory=dict)  # from a twin, by observable
     errors: dict[str, float] = field(default_factory=dict)  # relative, by observable; where known
-    seconds: float = 0.0  # wall time of the march and of those beside it
+    seconds: float = 0.0  # wall time of the run and of those beside it
 
     def beside(self, other: Neighbour) -> Case:
-        """As of a case, for as many rounds as the run took."""
+        """As of a case, for as many revolutions as the run took."""
         scene = as_long(self.scene, self.outcome.rounds)
         return Case(scene, self.rom, self.setup, self.left).beside(other)
 

@@ -19,11 +19,11 @@ HALF_ORDER = 0.25  # the amplitude at engine order k is taken within k -+ 0.25
 
 
 def spectrum(u_r: NDArray[np.float64]) -> NDArray[np.float64]:
-    """One-sided amplitude spectrum of a whole number of rounds, m.
+    """One-sided amplitude spectrum of a whole number of revolutions, m.
 
-    Bin b is engine order b / rounds: no window is needed, engine orders are bins.
+    Bin b is engine order b / revolutions: no window is needed, engine orders are bins.
 
-    >>> theta = 2 * np.pi * np.arange(128) / 64  # two rounds
+    >>> theta = 2 * np.pi * np.arange(128) / 64  # two revolutions
     >>> amplitudes = spectrum(1e-5 + 3e-5 * np.cos(4 * theta))
     >>> amplitudes[[0, 8]].round(9)  # the mean, and order 4
     array([1.e-05, 3.e-05])
@@ -62,8 +62,8 @@ def spectrogram(
 
     Parameters
     ----------
-    window : rounds per window
-    slices : windows per round; only those that lie within the run are computed
+    window : revolutions per window
+    slices : windows per revolution; only those that lie within the run are computed
 
     Returns
     -------
@@ -92,8 +92,9 @@ def mode_share(
 ) -> float:
     """Share of the spectral energy of ``u_r`` within half an engine order of f1(Omega).
 
-    ``u_r`` spans a whole number of rounds; ``speed_over_f1`` and ``f1`` are Omega and f1(Omega),
-    both over f1(0). Energy is amplitude squared, without the mean. nan without any vibration.
+    ``u_r`` spans a whole number of revolutions; ``speed_over_f1`` and ``f1`` are Omega and
+    f1(Omega), both over f1(0). Energy is amplitude squared, without the mean. nan without any
+    vibration.
     """
     energy = spectrum(u_r)[1:] ** 2
     orders = np.arange(1, len(energy) + 1) * samples_per_round / len(u_r)
