@@ -90,8 +90,9 @@ def correct(scheme, x, y, modal, now, last, before):
 def find_force(scheme, strips, state, step):
     """Fill ``motion.force`` for the predicted displacement, wear the liner, book.
 
-    ``motion.u`` becomes the corrected displacement; ``motion.moved`` = C F, what the correction
-    takes off the prediction, is kept: the liner was compressed to the predicted displacement.
+    ``motion.u`` becomes the corrected displacement; ``motion.moved`` = C F, the part that the
+    correction takes off the prediction, is kept: the liner was compressed to the predicted
+    displacement.
 
     Returns
     -------

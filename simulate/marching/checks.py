@@ -108,7 +108,7 @@ def _speeds(speeds: Speeds, rom: Rom, blade: str) -> Iterator[Fault]:
 
 
 def _remedy_of_speed(speeds: Speeds, rom: Rom, blade: str, highest: float) -> str:
-    """What to change for a speed above Omega_m; f1(0), by which it is told, is that of the mesh."""
+    """Remedy for a speed above Omega_m; f1(0), the unit of the speed, is that of the mesh."""
     if speeds.over_f1 is None:
         return ""
     if highest > NEAR * rom.Omega_m:

@@ -61,12 +61,12 @@ ROUND_OFF = 1e-9  # imaginary part of a real eigenvalue, over it
 PLACES = 32  # along the chord, at which sets of neighbouring strips begin and end
 DOUBLINGS = 20  # of the steps, in search of some that meet (b)
 ROUNDS = 400  # of Newton's steps and, where they do not converge, of the splitting
-SPLITTINGS = 20  # in a round
+SPLITTINGS = 20  # in one of ``ROUNDS``
 Modes = tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]  # omega, Phi_b, Phi_t
 
 
 class Sliding(NamedTuple):
-    """What a scheme needs for a tip that slides with friction."""
+    """Data of a scheme for a tip that slides with friction."""
 
     mu: float  # friction coefficient
     A: NDArray[np.float64]  # (strips, strips), m/N, Eq. (a)

@@ -1,4 +1,4 @@
-"""The compiled march over one round: predict, detect, liner forces, correct (section 6.2)."""
+"""Compiled kernel of one revolution: predict, detect, liner forces, correct (section 6.2)."""
 
 from typing import NamedTuple
 
@@ -28,11 +28,11 @@ from simulate.marching.modal import (
     predict,
 )
 
-RUNNING, WORN_THROUGH, ESCAPED = range(3)  # how a round ended
+RUNNING, WORN_THROUGH, ESCAPED = range(3)  # how a revolution ended
 
 
 class State(NamedTuple):
-    """All that a march carries from round to round; the kernel changes it in place."""
+    """State of a run from revolution to revolution; the kernel changes it in place."""
 
     motion: Motion
     covered: Covered
@@ -56,7 +56,7 @@ def at_start(scheme: Scheme, strips: Strips) -> State:
 
 
 class Recorded(NamedTuple):
-    """What the kernel fills in every round, and what of the motion that is."""
+    """Output buffers of one revolution and the matrices that fill them."""
 
     samples: NDArray[np.float64]  # (samples, places), m, u_r after every steps/samples-th step
     forces: NDArray[np.float64]  # (3, shares), N: peak and sum of t_N, sum of t_T, over the steps
@@ -67,7 +67,7 @@ class Recorded(NamedTuple):
 
 @compiled
 def turns(round_turn, number):
-    """Rows, of TURNS in a ring, of the steps n + 1, n and n - 1 at step ``number`` of a round."""
+    """Rows, of TURNS in a ring, of the steps n + 1, n and n - 1; ``number``: n in a revolution."""
     now = (round_turn + number) % TURNS
     return now, (now + 2) % TURNS, (now + 1) % TURNS
 
@@ -117,7 +117,7 @@ def march_free(scheme, strips, motion, energies, a_first, a_last, number, end, r
 
 @compiled
 def contact_step(scheme, strips, state, recorded, step, lost):
-    """Contact in a step: forces, wear, and what the forces do to the free motion.
+    """Contact in a step: forces, wear, and the change of the free motion.
 
     Returns
     -------
@@ -165,18 +165,18 @@ def book_forces(force, weights, forces, tangential):
 
 @compiled_kernel
 def march_round(scheme, strips, state, recorded, ramp, bound, done, steps):
-    """March one round of ``steps`` steps.
+    """Compute one revolution of ``steps`` steps.
 
     Parameters
     ----------
     ramp : Ramp, share of the casing distortion
     bound : m, radial displacement beyond which the run ends
-    done : rounds done before
+    done : revolutions done before
 
     Returns
     -------
     contacts, number, end, strip : int
-        Steps with contact, steps taken, how the round ended, and the strip (from 0) that the
+        Steps with contact, steps taken, how the revolution ended, and the strip (from 0) that the
         tip came through where the liner is worn through.
     """
     motion, samples = state.motion, recorded.samples
@@ -187,7 +187,7 @@ def march_round(scheme, strips, state, recorded, ramp, bound, done, steps):
     for i in range(strips.g0.size):
         loaded |= state.covered.strips[i].stored > 0.0
     strips.waves.begin(strips, done * steps)
-    round_turn = done * steps % TURNS  # turns go on where the last round left them
+    round_turn = done * steps % TURNS  # turns go on where the last revolution left them
     for sample in range(len(samples)):
         end = number + every
         if strips.touches:

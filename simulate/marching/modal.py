@@ -16,7 +16,7 @@ TURNS = 3  # steps kept: n + 1, n and n - 1, in rows that take turns
 
 
 class Scheme(NamedTuple):
-    """Coefficients of a march as its kernel reads them.
+    """Coefficients of a run as the kernel reads them.
 
     Modes and interface rows are padded with zeros to multiples of LANES: vectors without a rest.
     Rows are the radial displacements over the strips, then, where modelled, the tangential ones.
@@ -31,14 +31,14 @@ class Scheme(NamedTuple):
     C: NDArray[np.float64]  # (rows, rows), m/N, displacement of the rows by forces on them
     # compiled functions
     advance: Any  # free motion of one mode over a step
-    correct: Any  # what the modal force adds
+    correct: Any  # effect of the modal force
     find_force: Any  # force of the liner in the step
     forces: Any = None  # of the strips in contact, where they are found implicitly
     sliding: Any = None  # ``friction.Sliding`` where the tip slides with friction
 
 
 class Motion(NamedTuple):
-    """The blade's motion: three steps whose rows take turns, and what is done with them."""
+    """The blade's motion: three steps whose rows take turns, and the forces on it."""
 
     x: NDArray[np.float64]  # (TURNS, n), modal displacements
     y: NDArray[np.float64]  # (TURNS, n), second phase-plane coordinates, piecewise-exact alone
@@ -50,9 +50,9 @@ class Motion(NamedTuple):
 
 
 class Step(NamedTuple):
-    """One step of the march: where it is, and the turns of the steps in ``Motion``."""
+    """One step of a run: its place, and the turns of the steps in ``Motion``."""
 
-    number: int  # of the round
+    number: int  # of the revolution
     a: float  # share of the casing distortion reached at the time of its rods
     a_end: float  # and at the end of the step
     now: int
@@ -103,7 +103,7 @@ def _padded(a: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _zeros(shape: tuple[int, ...]) -> NDArray[np.float64]:
-    """Zeros that begin on a cache line: vectors across two lines cost the march a tenth."""
+    """Zeros that begin on a cache line: vectors across two lines cost the run a tenth."""
     size = int(np.prod(shape))
     room = np.zeros(size + LANES)
     first = -room.ctypes.data % (8 * LANES) // 8

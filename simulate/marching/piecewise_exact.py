@@ -77,7 +77,7 @@ def share_of_end(stiffness: NDArray[np.float64]) -> NDArray[np.float64]:
 
     ``stiffness`` of the strips times the compliance of the blade there in a step: of order two in
     the step. So it is small where the step resolves the motion in contact, and nears 1, at which
-    the scheme damps what it does not resolve, where the liner is too stiff for the step.
+    the scheme damps unresolved motion, where the liner is too stiff for the step.
     """
     return 1 - STIFF / (stiffness + STIFF)  # 1 for a rigid law
 
@@ -158,7 +158,7 @@ def advance(scheme, x, y, k, now, last, before):
 
 @compiled_sums
 def correct(scheme, x, y, modal, now, last, before):
-    """Add what the modal force (n,), N, does in the step; returns the damping loss, J."""
+    """Add the effect of the modal force (n,), N, in the step; returns the damping loss, J."""
     gain = scheme.gain
     lost = 0.0
     for k in range(modal.size):
@@ -251,7 +251,7 @@ def activate(strips, state, step, count):
 
 @compiled
 def widen_reached(strips, state, step, count):
-    """Widen what is known of strips that forces lift beyond it; whether there are any."""
+    """Widen the reach of strips that forces lift beyond it; whether there are any."""
     u, covered, solver, wider = state.motion.u, state.covered, state.solver, False
     for p in range(count):
         at = solver.unknowns[p]
@@ -299,7 +299,7 @@ def displace(C, solver, count, tangential, motion):
 
 @compiled
 def press_detected(strips, state, step, count):
-    """Wear the liner under all strips that the tip met, and book what the casing does.
+    """Wear the liner under all strips that the tip met, and book the work of the casing.
 
     Nothing is known then of the strips of the next step but the forces of this one.
 
@@ -316,7 +316,7 @@ def press_detected(strips, state, step, count):
         i, w_before = np.int64(at.strip), u[step.last, at.strip]
         borne, _, depth = press(strips, covered, eps_p, i, at.w, w_before, energies)
         touched |= solver.F[p] > 0.0
-        if rigid:  # what the casing itself pushes, by the way that it came
+        if rigid:  # push of the casing itself, by the way that it came
             reaction, way = max(solver.F[p] - borne, 0.0), w_before - at.top
             # it may also do negative work on a strip that it held a step before, not on another
             if way > 0.0 or solver.strips[i].reaction > 0.0:

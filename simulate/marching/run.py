@@ -1,4 +1,4 @@
-"""March of one scene at one speed: all rounds, with the recorded outputs and the status."""
+"""Run of one scene at one speed: all revolutions, with the recorded outputs and the status."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -29,30 +29,31 @@ SCHEMES = {"central-difference": central_difference, "piecewise-exact": piecewis
 
 @dataclass(frozen=True)
 class Outcome:
-    """Result of one march."""
+    """Result of one run."""
 
     status: str  # of ``judge``
-    rounds: float  # rounds marched
+    rounds: float  # revolutions computed
     xi: float  # nan where ok; else the chord fraction of the strip that was worn through, or at
     # which u_r was largest when the run ended
     theta: float  # rad, angle of that place in the casing at the end, in [0, 2 pi); nan where ok
     facts: Facts
-    u_r: NDArray[np.float64]  # (kept rounds * samples, places), m, at xi = 1/16 and at the places
-    # of the history: all rounds for a history or motion, else the last
-    states: NDArray[np.float64]  # (kept rounds * samples, n), m: reduced displacements, last rounds
+    u_r: NDArray[np.float64]  # (kept revolutions * samples, places), m, at xi = 1/16 and at the
+    # places of the history: all revolutions for a history or motion, else the last
+    states: NDArray[np.float64]  # (kept revolutions * samples, n), m: reduced displacements, last
+    # revolutions
     ends: NDArray[np.float64]  # (m + 1,), chord fractions: ends of the strips
     wear: NDArray[np.float64]  # (m, nu), m, worn depth l eps_p
-    # forces on each eighth of the chord (SHARES), N; nan, as u_r, in rounds that were not marched
-    force_peak: NDArray[np.float64]  # (rounds, shares)
-    force_mean: NDArray[np.float64]  # (rounds, shares), over the steps marched of the round
-    force_tangential_mean: NDArray[np.float64]  # (rounds, shares), against the rotation
-    casing_work: NDArray[np.float64]  # (rounds marched,), J, of the casing on the rods
+    # forces on each eighth of the chord (SHARES), N; nan, as u_r, in revolutions not computed
+    force_peak: NDArray[np.float64]  # (revolutions, shares)
+    force_mean: NDArray[np.float64]  # (revolutions, shares), over the steps of the revolution
+    force_tangential_mean: NDArray[np.float64]  # (revolutions, shares), against the rotation
+    casing_work: NDArray[np.float64]  # (revolutions computed,), J, of the casing on the rods
     contact_share: float  # steps with contact over all steps
-    each: Rounds  # what every round shows
-    time_constant: float = nan  # rounds, of the mode that responds in the last round; inf without
-    # damping, nan where the run ended early
+    each: Rounds  # numbers of every revolution
+    time_constant: float = nan  # revolutions, of the mode that responds in the last one; inf
+    # without damping, nan where the run ended early
     trend: str = TOO_SHORT  # whether the motion is steady
-    left: Left | None = None  # what the next march goes on from, where it is asked for
+    left: Left | None = None  # start of the next run, where it is asked for
     reason: str = ""  # of a run without contact: why the tip did not touch
 
     @property
@@ -62,10 +63,10 @@ class Outcome:
 
 
 def _room(record: Record, rounds: int, places: int, modes: int) -> list[NDArray[np.float64]]:
-    """Room for what the kernel records: u_r at places, forces on eighths, modal displacements.
+    """Room for records of the kernel: u_r at places, forces on eighths, modal displacements.
 
-    In each the first row is of every round that is not kept, those after it of the last rounds; nan
-    where not marched.
+    In each the first row is of every revolution that is not kept, those after it of the last
+    revolutions; nan where not computed.
     """
     samples, of_states = record.samples_per_round, record.rounds_of_states
     shapes = (
@@ -92,7 +93,7 @@ def _start(
     weights = force_weights(setup.places.ends)[: kept[1].shape[2]]
 
     def arguments(done: int, before: int = 0) -> tuple[Any, ...]:
-        """Of the kernel in round ``done``, from 0, after rounds ``before`` of another march."""
+        """Of the kernel in revolution ``done``, from 0, after ``before`` of another run."""
         rows = [array[_row(done, len(array) - 1, rounds, until)] for array in kept]
         recorded = Recorded(*rows, Phi_out, weights)
         return scheme, strips, state, recorded, ramp, setup.bound, before + done, setup.steps
@@ -103,16 +104,16 @@ def _start(
 
 
 def make_kernel(scene: Scene, setup: Setup) -> float:
-    """Compile the march for the scheme and law, or read it from its file; return wall time, s."""
+    """Compile the kernel for the scheme and law, or read it from its file; return wall time, s."""
     start = perf_counter()
     _start(scene, setup)
     return perf_counter() - start
 
 
 def march(scene: Scene, setup: Setup, left: Left | Worn | None = None) -> Outcome:
-    """March all rounds; stop when the liner is worn through or u_r exceeds ``setup.bound``.
+    """Compute all revolutions; stop when the liner is worn through or u_r exceeds ``setup.bound``.
 
-    ``left``: what another march has left, from which this one goes on, or its liner; without it a
+    ``left``: end of another run, from which this one goes on, or its liner; without it a
     blade at rest starts over an unworn liner.
     """
     kept, kernel, arguments = _start(scene, setup)
@@ -123,7 +124,7 @@ def march(scene: Scene, setup: Setup, left: Left | Worn | None = None) -> Outcom
     before = _stored(scene, setup, state, first * steps)
     contacts, done, end, worked = 0, 0, RUNNING, [0.0]
     each, tau, words = Rounds.unknown(scene.rounds, _worn(setup, state)), nan, [TOO_SHORT]
-    standing = max(scene.casing.changes_until - first, 0)  # the first round that counts, from 0
+    standing = max(scene.casing.changes_until - first, 0)  # first revolution that counts, from 0
     least = scene.record.spectrum_rounds or 1
     judged = looks(standing, least, scene.rounds) if scene.until else {scene.rounds}
     still = [STEADY] * 2 if scene.until else None  # at two looks in turn
@@ -182,10 +183,10 @@ def march(scene: Scene, setup: Setup, left: Left | Worn | None = None) -> Outcom
 
 
 def _row(done: int, kept: int, rounds: int, until: str | None) -> int:
-    """Row of ``_room`` for round ``done``, from 0, of ``rounds``, the last of which are kept.
+    """Row of ``_room`` for revolution ``done``, from 0, of ``rounds``, the last of which are kept.
 
-    Those that are not kept share the first row, which is overwritten. Where the last round is not
-    known beforehand all take turns in the rows that are kept.
+    Those that are not kept share the first row, which is overwritten. Where the last revolution is
+    not known beforehand all take turns in the rows that are kept.
     """
     if until and kept:
         return 1 + done % kept
@@ -193,7 +194,7 @@ def _row(done: int, kept: int, rounds: int, until: str | None) -> int:
 
 
 def _in_order(kept: NDArray[np.float64], done: int, until: str | None) -> NDArray[np.float64]:
-    """Rounds ``kept`` (kept, ...) of which ``done`` were marched, the last one last."""
+    """Revolutions ``kept`` (kept, ...) of which ``done`` were computed, the last one last."""
     return np.roll(kept, -done, axis=0) if until and 0 < len(kept) < done else kept
 
 
@@ -216,7 +217,7 @@ def _place(
     """Chord fraction at which a run ended, and its angle in the casing, in [0, 2 pi) rad.
 
     That of strip ``node`` (from 0) where the liner is worn through; else that of the strip with the
-    largest radial displacement. ``step``: the last of its round; ``steps``: all.
+    largest radial displacement. ``step``: the last of its revolution; ``steps``: all.
     """
     if end != WORN_THROUGH:
         u_r = state.motion.u[steps % TURNS, : len(setup.Phi_b)]

@@ -1,4 +1,4 @@
-"""Set-up of one march: its arrays and numbers, and what of its step is refused."""
+"""Set-up of one run: its arrays and numbers, and refusals of its step."""
 
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
@@ -29,7 +29,7 @@ from simulate.scene.laws import LAWS
 LARGEST_DISPLACEMENT = 0.1  # of the span: beyond this, linear elasticity no longer applies
 LEAST_SCALED = 10  # times the first frequency: modes below keep their mass
 MARGIN = 2  # rods on either side of the window, where the casing is met at the end of a step
-MAX_STEPS = 10**9  # per round, minutes of computing
+MAX_STEPS = 10**9  # per revolution, minutes of computing
 
 
 class SceneError(UserError):
@@ -38,11 +38,11 @@ class SceneError(UserError):
 
 @dataclass(frozen=True)
 class Setup:
-    """Arrays and numbers of one march."""
+    """Arrays and numbers of one run."""
 
     Omega: float  # rad/s
     h: float  # s
-    steps: int  # per round
+    steps: int  # per revolution
     limit: float  # s, stability limit of central differences with contact
     omega: NDArray[np.float64]  # (n,), rad/s, natural frequencies, with scaled masses
     Phi: NDArray[np.float64]  # (n, n), their modes
@@ -63,7 +63,7 @@ def least_gap(clearance: Clearance, rom: Rom, strips: int, speeds: Iterable[floa
 def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> Setup:
     """Modes, step and liner at ``Omega`` (rad/s).
 
-    ``steps`` per round replace those of the scene, and may exceed what a scene may ask for.
+    ``steps`` per revolution replace those of the scene, and may exceed the limit of a scene.
 
     Raises
     ------
@@ -186,7 +186,7 @@ def strip_stiffness(liner: Liner, places: Places) -> NDArray[np.float64]:
 
 
 def _steps_per_round(integrator: Any, samples: int, Omega: float, limit: float) -> int:
-    """Steps per round of a scene's ``integrator``, a multiple of the ``samples`` per round.
+    """Steps per revolution of a scene's ``integrator``, a multiple of ``samples``.
 
     Raises
     ------
@@ -229,7 +229,7 @@ def strips_under(
     steps: int,
     compliance: NDArray[np.float64],
 ) -> Strips:
-    """Liner, casing, gaps and tip at ``places``, for ``steps`` per round at ``Omega`` (rad/s).
+    """Liner, casing, gaps and tip at ``places``, for ``steps`` per revolution at ``Omega`` (rad/s).
 
     ``compliance`` (strips,), m/N: displacement of the blade there by a force held for a step.
 
@@ -332,7 +332,7 @@ def edge_slope(profile: Profile | None, footprint: float) -> float:
 
 
 def _rod_law(liner: Liner) -> RodLaw:
-    """Law of the rods: a user's own is called through pointers, unless the march is to hold it."""
+    """Law of the rods: a user's own is called through pointers, unless the kernel is to hold it."""
     law, parameters = liner.law, liner.law.parameters
     numbers = len(parameters) > 0 and all(isinstance(value, int | float) for value in parameters)
     called = numbers and not liner.law_in_march and not isinstance(law, LAWS)
@@ -342,7 +342,7 @@ def _rod_law(liner: Liner) -> RodLaw:
 
 @contextmanager
 def compiling(law: Law) -> Iterator[None]:
-    """In the block, say what is wrong with a law of the user's own that cannot be compiled.
+    """In the block, report the fault of a user's own law that cannot be compiled.
 
     Raises
     ------

@@ -1,6 +1,6 @@
-"""Start of a march from what another left: the blade's motion, the rods under its tip, the wear.
+"""Start of a run from the end of another: the blade's motion, the rods under its tip, the wear.
 
-At the same speed the march goes on to the last bit as one that never stopped. At another speed the
+At the same speed the run goes on to the last bit as one that never stopped. At another speed the
 blade keeps its displacement u = Phi q and velocity Phi q', on the modes of K(Omega) there.
 """
 
@@ -17,11 +17,11 @@ from simulate.marching.setup import Setup
 
 @dataclass(frozen=True)
 class Left:
-    """What a march leaves; modes and rows are padded as those of the kernel."""
+    """End of a run; modes and rows are padded as those of the kernel."""
 
     Omega: float  # rad/s
     h: float  # s
-    rounds: int  # marched since the casing began to distort
+    rounds: int  # since the casing began to distort
     omega: NDArray[np.float64]  # (n,), rad/s
     Phi: NDArray[np.float64]  # (n, n)
     x: NDArray[np.float64]  # (2, modes), modal displacements
@@ -37,7 +37,7 @@ class Left:
 
 @dataclass(frozen=True)
 class Worn:
-    """A liner that a march leaves, for a blade at rest."""
+    """Liner at the end of a run, for a blade at rest."""
 
     eps_p: NDArray[np.float64]  # (strips, nu), plastic strains
     rounds: int = 0  # since the casing began to distort: it does so anew
@@ -48,13 +48,13 @@ SOLVER = ("F", "reaction")  # of ``interface_force.AT_STRIP``
 
 
 def rows_at(rounds: int, steps: int) -> list[int]:
-    """Rows, of TURNS in a ring, of the last step and the one before after so many rounds."""
+    """Rows, of TURNS in a ring, of the last step and the one before after so many revolutions."""
     now = rounds * steps % TURNS
     return [now, (now - 1) % TURNS]
 
 
 def left_by(state: State, setup: Setup, rounds: int) -> Left:
-    """What a march leaves after ``rounds``, since the casing began to distort."""
+    """End of a run after ``rounds``, since the casing began to distort."""
     motion, covered, rows = state.motion, state.covered, rows_at(rounds, setup.steps)
     return Left(
         Omega=setup.Omega,
@@ -77,7 +77,7 @@ def left_by(state: State, setup: Setup, rounds: int) -> Left:
 def begin(
     state: State, left: Left | Worn, scheme: Scheme, integrator: Any, setup: Setup, zeta: float
 ) -> None:
-    """Put what is left into a ``state`` at rest; ``integrator``: the module of the scheme."""
+    """Put the end of a run into a ``state`` at rest; ``integrator``: the module of the scheme."""
     state.eps_p[:] = left.eps_p
     if isinstance(left, Worn):
         return

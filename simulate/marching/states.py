@@ -15,10 +15,10 @@ PER_PERIOD = 8  # least states in a period of the highest mode that pictures sho
 def every(mode: int, samples_per_round: int, omega: NDArray[np.float64], Omega: float) -> int:
     """Samples from one state to the next for pictures that show the motion of ``mode``.
 
-    At least eight states are in its period, and whole numbers of them make a round. ``omega``:
+    At least eight states are in its period, and whole numbers of them make a revolution. ``omega``:
     natural frequencies, rad/s, of the run at the speed ``Omega``, rad/s.
 
-    >>> every(1, 2048, np.array([50.0]), 10.0)  # 5 periods a round
+    >>> every(1, 2048, np.array([50.0]), 10.0)  # 5 periods a revolution
     32
     """
     most = samples_per_round * Omega / (PER_PERIOD * omega[mode - 1])
@@ -35,8 +35,8 @@ def largest_state(sweep: xr.Dataset) -> tuple[dict[str, Any], NDArray[np.float64
     Returns
     -------
     dict, NDArray
-        For files: status of the run, its speed, rounds since the start, chord fraction of the place
-        and its radial displacement, m, outward positive; reduced displacements (n,), m.
+        For files: status of the run, its speed, revolutions since the start, chord fraction of the
+        place and its radial displacement, m, outward positive; reduced displacements (n,), m.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Status of a run, from the facts of its march and its second runs; why it has no contact."""
+"""Status of a run, from its facts and its second runs; why it has no contact."""
 
 from dataclasses import dataclass
 
@@ -26,7 +26,7 @@ STATUSES = (
 WITH_RESULT = ("ok", "sensitive", "no-contact")
 TO_THE_END = (*WITH_RESULT, "inaccurate")  # of those that can be compared
 
-# Numerical energy over what casing and rods at the start give: limits of an `ok` run
+# Numerical energy over that from the casing and the rods at the start: limits of an `ok` run
 CREATED = 0.1  # above, the run is `unstable`
 LOST = 0.2  # above, it is `inaccurate`: energy is quadratic, so 20 % is 10 % of the amplitude
 SLIDES = 0.1  # least sliding speed over Omega r of an `ok` run with friction
@@ -38,7 +38,7 @@ MICRO = 1e6
 
 @dataclass(frozen=True)
 class Facts:
-    """What a march alone tells of itself."""
+    """Facts of a run, without second runs."""
 
     end: int  # RUNNING, or why the kernel ended it
     ledger: Ledger
@@ -50,7 +50,7 @@ class Facts:
 def judge(
     facts: Facts, twin: float = 0.0, error: float = 0.0, met: bool = True, lost: float = LOST
 ) -> str:
-    """Status of a run, from the facts of its march and what second runs tell.
+    """Status of a run, from its facts and the findings of second runs.
 
     ``twin``: largest relative difference from its twin; ``error``: largest bound of the error of
     its step; ``met``: whether its errors are within the accuracy asked for; ``lost``: share of the
@@ -91,10 +91,10 @@ def judge(
 
 
 def why_no_contact(scene: Scene, strips: Strips, eps_p: NDArray[np.float64], rounds: int) -> str:
-    """Reason why the tip did not touch: the key, its value and what would have to change.
+    """Reason why the tip did not touch: the key, its value and the change needed.
 
-    The blade starts at rest, and nothing has moved it: what counts is its smallest gap, the largest
-    inward distortion up to the last round, and what is worn away.
+    The blade starts at rest, and nothing has moved it: its smallest gap counts, the largest inward
+    distortion up to the last revolution, and the wear.
 
     ``eps_p`` (strips, nu): plastic strains at the end; ``rounds``: since the casing began to
     distort.

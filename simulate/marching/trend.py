@@ -1,23 +1,24 @@
-"""Whether a run is steady at its end: from its swing and its wear, round by round.
+"""Whether a run is steady at its end: from its swing and its wear in each revolution.
 
-The swing is half the range of u_r at xi = 1/16 in a round. What is left in it of the start dies out
-as exp(-j/tau) over the rounds j, with the time constant of the mode that responds, of frequency
-k Omega: tau = 1/(2 pi zeta k) revolutions, 53 for a damping of 0.1 % and k = 3. Beats between this
+The swing is half the range of u_r at xi = 1/16 in a revolution. Its rest from the start dies out as
+exp(-j/tau) over the revolutions j, with the time constant of the mode that responds, of frequency
+k Omega: tau = 1/(2 pi zeta k) revolutions, 53 for a damping of 0.1 % and EO 3. Beats between this
 mode and the engine orders rise and fall within tau; wear may change the motion at any time. So
 
-    growing,    the mean swing of each quarter of the rounds is above (below) that of the quarter
+    growing,    the mean swing of each quarter of the revolutions is above (below) that of the one
     dying out   before by ``MOVES`` of the last, and the last change is no small one beside that
                 before: no beat does so four times in turn
-    steady      the swing of the last half, less what dies out as exp(-j/tau), is within ``STILL``
-                of the swing at the end, and the last quarter wore at most ``WEARS`` of what all did
+    steady      the swing of the last half, less the part exp(-j/tau), is within ``STILL`` of the
+                swing at the end, and the last quarter wore at most ``WEARS`` of all
     too short   neither can be said
     to say
 
-Rounds in which the casing's distortion still changes do not count. The limits are those by which
-drawn scenes, marched ten time constants on, refute few of the words (tests/simulate/test_trend.py).
+Revolutions in which the casing's distortion still changes do not count. The limits are those by
+which drawn scenes, run for ten more time constants on, refute few of the words
+(tests/simulate/test_trend.py).
 
 A run that ends when it is steady is judged again and again, and may seem so once by chance. It
-ends where it is steady at two looks in turn, the second after half as many rounds again.
+ends where it is steady at two looks in turn, the second after half as many revolutions again.
 """
 
 from dataclasses import dataclass
@@ -29,50 +30,50 @@ from numpy.typing import NDArray
 
 from simulate.scene import DYING_OUT, GROWING, STEADY, TOO_SHORT
 
-FEWEST = 8  # rounds, to say anything
+FEWEST = 8  # revolutions, to say anything
 MOVES = 0.1  # of the swing at the end, from quarter to quarter
 SLOWS = 0.3  # the last change over the one before, at least: else it comes to an end
 STILL = 0.05  # of the swing at the end
-SURE = 2.0  # standard errors of what still dies out, beside it
-WEARS = 0.03  # of the volume worn in the rounds that count, in the last quarter
-LONGEST = 1e3  # time constants beyond so many times the rounds are as this one: without damping
+SURE = 2.0  # standard errors of the part that still dies out, beside it
+WEARS = 0.03  # of the volume worn in the revolutions that count, in the last quarter
+LONGEST = 1e3  # time constants beyond so many times the revolutions are as without damping
 
 
 @dataclass(frozen=True)
 class Rounds:
-    """What each round of a run shows; nan where it was not marched to its end."""
+    """Numbers of each revolution of a run; nan where it did not end."""
 
-    extremes: NDArray[np.float64]  # (rounds, 2), m, least and largest u_r at xi = 1/16
-    volume: NDArray[np.float64]  # (rounds + 1,), m3, worn off the liner before and after each
+    extremes: NDArray[np.float64]  # (revolutions, 2), m, least and largest u_r at xi = 1/16
+    volume: NDArray[np.float64]  # (revolutions + 1,), m3, worn off the liner before and after each
 
     @classmethod
     def unknown(cls, rounds: int, volume: float) -> Self:
-        """Of ``rounds`` that are still to be marched; ``volume``, m3, worn before them."""
+        """Of ``rounds`` that are still to come; ``volume``, m3, worn before them."""
         return cls(np.full((rounds, 2), nan), np.array([volume] + [nan] * rounds))
 
     def add(self, done: int, samples: NDArray[np.float64], volume: float) -> None:
-        """Add what the round after ``done`` shows: samples of u_r, m, and the volume after it."""
+        """Add the revolution after ``done``: samples of u_r, m, and the volume after it."""
         self.extremes[done] = samples.min(), samples.max()
         self.volume[done + 1] = volume
 
     def trend(self, first: int, tau: float) -> str:
-        """``trend`` of the rounds marched, the ``first`` not among them; ``tau`` in rounds."""
+        """``trend`` of the revolutions computed after the ``first``; ``tau`` in revolutions."""
         counted = slice(first, np.isfinite(self.worn).sum())
         return trend(self.swing[counted], self.worn[counted], tau)
 
     @property
     def worn(self) -> NDArray[np.float64]:
-        """Volume worn in each round (rounds,), m3."""
+        """Volume worn in each revolution (revolutions,), m3."""
         return np.diff(self.volume)
 
     @property
     def swing(self) -> NDArray[np.float64]:
-        """Half the range (rounds,), m, of u_r."""
+        """Half the range (revolutions,), m, of u_r."""
         return np.diff(self.extremes, axis=1)[:, 0] / 2
 
     @property
     def largest(self) -> tuple[float, float]:
-        """Largest |u_r|, m, and the number of its round, from 1; nan without a whole round."""
+        """Largest |u_r|, m, and the number of its revolution, from 1; nan without a whole one."""
         of_rounds = abs(self.extremes).max(axis=1)
         if np.isnan(of_rounds).all():
             return nan, nan
@@ -80,7 +81,7 @@ class Rounds:
 
 
 def looks(standing: int, least: int, most: int) -> set[int]:
-    """Rounds marched at which a run is judged that ends when it is steady at two of them in turn.
+    """Revolutions at which a run is judged that ends when it is steady at two of them in turn.
 
     The first are ``FEWEST`` after those in which the casing changes, ``standing``, and ``least``;
     each following has half as many again, the last is ``most``.
@@ -98,9 +99,9 @@ def looks(standing: int, least: int, most: int) -> set[int]:
 def time_constant(
     samples: NDArray[np.float64], omega: NDArray[np.float64], Omega: float, zeta: float
 ) -> float:
-    """Time constant tau, rounds, of the mode that responds; inf without damping.
+    """Time constant tau, revolutions, of the mode that responds; inf without damping.
 
-    ``samples`` (n,), m, of u_r in one round: the mode is that nearest to their largest order.
+    ``samples`` (n,), m, of u_r in one revolution: the mode is that nearest to their largest order.
     """
     order = np.abs(np.fft.rfft(samples))[1:].argmax() + 1
     k = (omega / Omega)[np.abs(omega / Omega - order).argmin()]
@@ -108,9 +109,9 @@ def time_constant(
 
 
 def trend(swing: NDArray[np.float64], worn: NDArray[np.float64], tau: float) -> str:
-    """One of ``TRENDS``, for the swing (n,) of rounds and the volume worn in each, any units.
+    """One of ``TRENDS``, for the swing (n,) of revolutions and the volume worn in each, any units.
 
-    ``tau``: time constant, rounds.
+    ``tau``: time constant, revolutions.
 
     >>> j = np.arange(40)
     >>> trend(1 + np.exp(-j / 4), 0 * j, tau=4)
@@ -131,10 +132,10 @@ def trend(swing: NDArray[np.float64], worn: NDArray[np.float64], tau: float) -> 
 
 
 def _still(swing: NDArray[np.float64], tau: float) -> bool:
-    """Whether what dies out as exp(-j/tau) is small at the end of ``swing`` (n,), and its mean too.
+    """Whether the part exp(-j/tau) is small at the end of ``swing`` (n,), and its mean too.
 
-    By least squares, with the standard error of the part that dies out. Neighbouring rounds depend
-    on each other: n of them count as n (1 - rho)/(1 + rho), rho their correlation.
+    By least squares, with the standard error of the part that dies out. Neighbouring revolutions
+    depend on each other: n of them count as n (1 - rho)/(1 + rho), rho their correlation.
     """
     n = len(swing)
     decay = np.exp(-(np.arange(n) - n + 1) / tau)
