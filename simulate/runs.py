@@ -1,4 +1,4 @@
-"""Sweeps and single runs from Python: a sweep with its reduced model, one march, the peaks."""
+"""Sweeps and single runs from Python: a sweep with its reduced model, one run, the peaks."""
 
 from collections import Counter
 from dataclasses import dataclass

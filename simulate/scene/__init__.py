@@ -1,4 +1,4 @@
-"""What a user writes: scenes, their tables and designs, the laws of the liner."""
+"""Input of a user: scenes, their tables and designs, the laws of the liner."""
 
 from simulate.scene.casing import LEADING, TRAILING, Casing, Clearance, Harmonic
 from simulate.scene.contact import Contact, Profile

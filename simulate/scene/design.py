@@ -212,7 +212,7 @@ def _scene(values: dict[str, Any], columns: list[str], line: list[Any]) -> Scene
 def placed(
     values: dict[str, Any], changes: Mapping[str, Any], read: Callable[[Any], Any] = deepcopy
 ) -> dict[str, Any]:
-    """``values`` with what ``read`` makes of each of the ``changes``, which are by paths of keys.
+    """``values`` with ``read`` of each of the ``changes``, which are by paths of keys.
 
     >>> placed({"liner": {"law": {"E": 1.0, "K": 4.55}}}, {"liner.law.K": 0.45})
     {'liner': {'law': {'E': 1.0, 'K': 0.45}}}

@@ -34,7 +34,7 @@ class Law(Settings):
     ``plastic_work(parameters, before, after)``
         Work (J/m3) of a plastic strain that grows from ``before`` to ``after``.
 
-    Both are plain functions without ``self``, which the march compiles; ``parameters`` is a named
+    Both are plain functions without ``self``, which are compiled; ``parameters`` is a named
     tuple of the fields. By default a rod carries no load and does not wear. Laws of this project
     have a literal field ``kind``, their name in scene files; any other law is named
     ``module:class`` there.
@@ -56,9 +56,9 @@ class Law(Settings):
     >>> PerfectlyPlastic(E=2e9, sigma_Y=1e5).modulus
     2000000000.0
 
-    The march assumes: no tension; a stress that does not fall with growing strain and whose slope
-    is at most ``modulus``; a plastic strain that never falls; unloading with ``modulus``, so that
-    the elastic energy (J/m3) is sigma (eps - eps_p) / 2, and elastic energy and plastic work
+    The computation assumes: no tension; a stress that does not fall with growing strain and whose
+    slope is at most ``modulus``; a plastic strain that never falls; unloading with ``modulus``, so
+    that the elastic energy (J/m3) is sigma (eps - eps_p) / 2, and elastic energy and plastic work
     together are the integral of sigma over eps.
     """
 

@@ -56,12 +56,12 @@ class Record(Settings):
     )
 
     def rounds_of_u_r(self, rounds: int) -> int:
-        """Last rounds, of all ``rounds``, whose displacements are kept."""
+        """Last revolutions, of all ``rounds``, whose displacements are kept."""
         return rounds if self.history or self.motion else self.spectrum_rounds or 0
 
     @property
     def rounds_of_states(self) -> int:
-        """Last rounds whose reduced displacements are kept."""
+        """Last revolutions whose reduced displacements are kept."""
         return self.states_rounds or (1 if self.motion else 0)
 
     @property

@@ -263,7 +263,7 @@ class Scene(SettingsFile):
 
 
 def fault_of_blade(scene: Scene, blade: AnyBlade) -> Fault | None:
-    """What of the scene its blade alone does not allow, without any model; None if it allows all.
+    """Setting that the blade alone does not allow, without any model; None if it allows all.
 
     Speeds over f1(0) are checked once the model is there.
     """

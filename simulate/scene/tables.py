@@ -1,4 +1,4 @@
-"""Tables of a scene: casing over the angle or the rounds, thermal growth over the speed.
+"""Tables of a scene: casing over the angle or the revolutions, thermal growth over the speed.
 
 Those over angle and speed may be CSV files of a user with two columns of numbers, one over the
 other, in units of their names, as the curve of a measured law may (``simulate.scene.laws.table``).
@@ -66,7 +66,7 @@ def _columns(lines: list[tuple[int, list[str]]], x: Columns, y: Columns) -> dict
 
 
 def ascending(says: str, first: float = inf, last: float = inf) -> AfterValidator:
-    """Refuses numbers that do not ascend from 0 at least; ``says`` what they should.
+    """Refuses numbers that do not ascend from 0 at least; ``says``: the rule in words.
 
     ``first``: largest first one; ``last``: largest of all.
     """

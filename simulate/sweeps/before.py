@@ -1,4 +1,4 @@
-"""What the runs of another sweep left, from which those of a scene start."""
+"""Ends of the runs of another sweep, from which those of a scene start."""
 
 from collections.abc import Callable
 
@@ -16,11 +16,11 @@ SAME_SPEED = 1e-9  # relative
 MAY_DIFFER = {"speeds", "rounds", "until", "record", "peaks", "twin", "start"}
 OF_LINER = ("strips", "rods_per_round", "thickness_m")  # keys that a worn liner must have alike
 
-type Before = Callable[[float], Left | Worn | None]  # what the run at a speed, rad/s, starts from
+type Before = Callable[[float], Left | Worn | None]  # start of the run at a speed, rad/s
 
 
 def before(scene: Scene, rom: Rom, runs: xr.Dataset | None) -> Before:
-    """What each run of ``scene`` starts from in the sweep ``runs``, by its speed in rad/s.
+    """Start of each run of ``scene`` in the sweep ``runs``, by its speed in rad/s.
 
     Without a `start` that is a blade at rest over an unworn liner, at each speed.
 

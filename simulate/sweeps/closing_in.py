@@ -54,7 +54,7 @@ def close_in(
     """``runs`` at the scene's speeds, and more runs around the peaks that it asks for.
 
     The spacing of the speeds on both sides of each peak is halved until it is at most
-    ``scene.peaks.within_over_f1``. What the runs have gone beyond is warned of.
+    ``scene.peaks.within_over_f1``. Limits that the runs exceed are warned of.
     """
     while speeds := halfway(scene.peaks, rom.f1, runs["speed"].values, partial(peak_of, runs, rom)):
         runs = merge([runs, at_speeds(scene, rom, speeds, report, choice, start)])

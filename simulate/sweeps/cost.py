@@ -1,10 +1,10 @@
-"""What a sweep will cost, before it is marched: steps, time and memory.
+"""Cost of a sweep before it is run: steps, time and memory.
 
 The time of a step is that measured on one core for reduced models of 40 to 90 DoFs and 8 to 64
 strips (``./run pytest -n 0 tests/benchmarks``, ``./run snakemake trade``): a part that goes with
 the modes times the strips, and one that goes with the rods under the tip. On another machine, and
-with less contact than usual, it is off by a factor of two or three; what is left is measured as the
-sweep goes on.
+with less contact than usual, it is off by a factor of two or three; the time left is measured as
+the sweep goes on.
 """
 
 import os
@@ -38,14 +38,14 @@ class Cost:
     speeds: int
     rounds: int
     until: bool  # at most so many
-    steps: float  # per round, mean over the speeds
+    steps: float  # per revolution, mean over the speeds
     beside: list[Neighbour]  # each run
     all_steps: float  # of all runs
     seconds: float  # on one core
     memory: float  # bytes, of all that is held at its end
 
     def lines(self, memory: float | None = None) -> list[str]:
-        """What it costs, in a line; a warning where that is much.
+        """Cost, in a line; a warning where that is much.
 
         ``memory``: of the machine, bytes; asked from it if not given.
         """
@@ -112,7 +112,7 @@ def _of_step(liner: Liner, rom: Rom, steps: float) -> float:
 
 
 def _memory(speeds: int, record: Record, liner: Liner, rounds: int, n: int) -> float:
-    """Bytes of the results of all speeds with their casings, and of a run while it is marched."""
+    """Bytes of the results of all speeds with their casings, and of a run in progress."""
     samples, rods = record.samples_per_round, liner.m * liner.rods_per_round
     held = (
         DOUBLE * 2 * liner.rods_per_round

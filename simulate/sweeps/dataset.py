@@ -40,7 +40,7 @@ from simulate.scene.laws.table import Table
 type Entry = tuple[str | tuple[str, ...], Any, dict[str, Any]]
 
 FORMAT = 3
-WINDOWS = 16  # in a round, of the range of u_r for pictures
+WINDOWS = 16  # in a revolution, of the range of u_r for pictures
 SPEED, SPEED_DIGITS = "speed_over_f1", 12  # dimension of the runs of a sweep, digits of its values
 ENERGIES = (
     "casing: work of the casing on the rods; work: of the contact forces on the blade; blade: "
@@ -145,7 +145,7 @@ RECORDED = {  # by the key of the scene's record that asks for them
     "history": ("history",),
     "states_rounds": ("states", "P"),
 }
-END = "end_"  # of the variables that hold what a run left
+END = "end_"  # of the variables that hold the end of a run
 OF_LEFT = {  # dimensions of each field of ``Left`` that is an array
     "omega": ("end_mode",),
     "Phi": ("end_dof", "end_mode"),
@@ -159,7 +159,7 @@ OF_LEFT = {  # dimensions of each field of ``Left`` that is an array
     "under": ("end_under", "strip"),
     "solver": ("end_solver_field", "strip"),
 }
-DIMS = {  # of what every sweep has, or records: numbers in every run with a result
+DIMS = {  # of the variables that every sweep has, or records: numbers in every run with a result
     name: (SPEED, *VARIABLES[name][0].split())
     if name in VARIABLES
     else (*COORDINATES[name][0].split(),)
@@ -176,7 +176,7 @@ def attributes(scene: Scene, rom: Rom, choice: Choice | None) -> dict[str, str |
         "format": FORMAT,
         "scene": scene.model_dump_json(),
         "rom": rom.provenance.dump(),
-        "code": code_hash("simulate.sweeps.over_speeds"),  # what marches
+        "code": code_hash("simulate.sweeps.over_speeds"),  # of the computation
         "gap_m": float(scene.clearance.gaps(LEADING, rom.span)),
         "f1_Hz": rom.f1,
         "tip_radius_m": float(rom.line(np.array([LEADING]))[0, 0]),
@@ -251,7 +251,7 @@ def _require_runs(runs: xr.Dataset) -> None:
     dims, must = dict(DIMS), [SPEED, "status"]
     if scene["clearance"].get("at") == "rest":
         dims["gap"] = GAP_AT_REST[0]
-    if "code" in runs.attrs:  # else made by hand, of what its reader needs
+    if "code" in runs.attrs:  # else made by hand, for its reader
         asked = (names for key, names in RECORDED.items() if scene["record"].get(key))
         must = [*ALWAYS, *chain(*asked)]
     held = {name: of for name, of in dims.items() if name in must or name in runs.variables}
@@ -380,7 +380,7 @@ def _dataset(scene: Scene, values: dict[str, Any]) -> xr.Dataset:
 
 
 def of_left(left: Left) -> dict[str, tuple]:
-    """Variables of a sweep, of one speed, that hold what its run left."""
+    """Variables of a sweep, of one speed, that hold the end of its run."""
     data = {
         f"{END}{name}": ((SPEED, *OF_LEFT.get(name, ())), np.asarray(value, float)[None])
         for name, value in vars(left).items()
@@ -390,7 +390,7 @@ def of_left(left: Left) -> dict[str, tuple]:
 
 
 def left_of(run: xr.Dataset) -> Left:
-    """What one run of a sweep left."""
+    """End of one run of a sweep."""
     of: dict[str, Any] = {field.name: run[f"{END}{field.name}"].values for field in fields(Left)}
     window = np.isfinite(of["part"]).all(axis=0)
     of |= {name: of[name][:, window] for name in ("part", "stored")}
@@ -399,7 +399,7 @@ def left_of(run: xr.Dataset) -> Left:
 
 
 def course(run: xr.Dataset) -> dict[str, Any]:
-    """How one run of a sweep went on to its end: as its variables, and `wears`, m3 in a round.
+    """How one run of a sweep went on to its end: as its variables, and `wears`, m3 in a revolution.
 
     The latter is the mean of the last quarter. Of a run that ended early the trend alone; empty for
     runs made by hand.
@@ -420,7 +420,7 @@ def over_f1(Omega: NDArray[np.float64], rom: Rom) -> NDArray[np.float64]:
 
 
 def _of_march(run: Run) -> dict[str, Any]:
-    """What every run has."""
+    """Variables of every run."""
     setup, outcome = run.setup, run.outcome
     here, nu = np.array([setup.Omega]), len(setup.strips.d)
     return {
@@ -446,7 +446,7 @@ def _of_march(run: Run) -> dict[str, Any]:
 
 
 def _of_rounds(outcome: Outcome) -> dict[str, Any]:
-    """What every round shows, and whether the motion is steady."""
+    """Numbers of every revolution, and whether the motion is steady."""
     largest, number = outcome.each.largest
     return {
         "trend": outcome.trend,
@@ -515,14 +515,14 @@ def _of_history(run: Run) -> dict[str, Any]:
 
 
 def _of_states(run: Run) -> dict[str, Any]:
-    """States of the last rounds, and their displacements over the strips."""
+    """States of the last revolutions, and their displacements over the strips."""
     rounds, samples = run.scene.record.states_rounds, run.scene.record.samples_per_round
     time = run.scene.rounds - rounds + np.arange(1, rounds * samples + 1) / samples
     return {"states": run.outcome.states, "P": run.rom.rows(run.setup.places.xi), "time": time}
 
 
 def _of_spectrum(run: Run) -> dict[str, Any]:
-    """Amplitudes of u_r over the spectrum's rounds, and its largest value; nan without a result."""
+    """Amplitudes and largest value of u_r over the spectrum's revolutions; nan without a result."""
     record, outcome = run.scene.record, run.outcome
     samples = record.spectrum_rounds * record.samples_per_round
     values, largest = np.full(samples // 2 + 1, np.nan, np.float32), np.nan
@@ -533,7 +533,7 @@ def _of_spectrum(run: Run) -> dict[str, Any]:
 
 
 def _of_forces(run: Run) -> dict[str, Any]:
-    """Forces, and the torque where there is one, in each round; nan where it was not marched."""
+    """Forces, and the torque where there is one, in each revolution; nan where not computed."""
     scene, outcome = run.scene, run.outcome
     values = {
         "force_peak": outcome.force_peak,
@@ -548,7 +548,7 @@ def _of_forces(run: Run) -> dict[str, Any]:
 
 
 def _of_motion(run: Run) -> dict[str, Any]:
-    """What pictures show: states of the last round, and the range of u_r over all rounds."""
+    """Data of pictures: states of the last revolution, and the range of u_r over all of them."""
     scene, outcome, samples = run.scene, run.outcome, run.scene.record.samples_per_round
     step = every(scene.record.motion, samples, run.setup.omega, run.setup.Omega)
     edges = np.rint(np.arange(WINDOWS * scene.rounds) * samples / WINDOWS).astype(int)

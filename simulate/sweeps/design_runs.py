@@ -1,8 +1,8 @@
-"""Many runs: the rows of a design marched, and their two tables of numbers, by run and by row.
+"""Many runs: the rows of a design, and their two tables of numbers, by run and by row.
 
 Rows that are done are kept in part files, each whole, under a hash of all that decides their
-numbers: their scene, the reduced model, the code. Whatever is asked for next, with more rows or in
-another number of blocks, is marched only if it is in no part.
+numbers: their scene, the reduced model, the code. Rows asked for next, in a larger design or in
+another number of blocks, are run only if they are in no part.
 """
 
 import json
@@ -43,7 +43,7 @@ from simulate.sweeps.over_speeds import check_steps, march_one, set_up
 from simulate.sweeps.peak import ORDERS, Peak, crossing, peak_among, sidebands_of
 from simulate.sweeps.plausible import doubts, warn_of
 
-SAVED_EVERY = 120.0  # s: what is lost at most when the process is killed, and one row
+SAVED_EVERY = 120.0  # s: lost at most when the process is killed, and one row
 KEPT_MODES = 512  # speeds whose modes are kept: 30 MB with 88 DoFs
 FORMAT = 2
 
@@ -95,12 +95,12 @@ class _KnownModes(Rom):
 
 @dataclass(frozen=True)
 class Engine:
-    """What marches the rows of one design on one reduced model."""
+    """Runs the rows of one design on one reduced model."""
 
     design: Design
     rom: Rom
     choice: Choice | None
-    scenes: list[Scene]  # of the rows, as they are marched
+    scenes: list[Scene]  # of the rows, as they are run
     orders: list[int]  # engine orders whose amplitudes are kept
     crossings: dict[int, float]  # of f1 with the orders at which peaks are sought, over f1(0)
 
@@ -219,7 +219,7 @@ def _amplitudes(run: Run, orders: Sequence[int]) -> NDArray[np.float32]:
 def read_parts(folder: Path, row_type: np.dtype) -> dict[str, NDArray]:
     """Numbers of all rows that are done, by key; those of other engines may lack some.
 
-    These are left out, as are parts that are damaged or of another version: their rows are marched
+    These are left out, as are parts that are damaged or of another version: their rows are run
     again.
     """
     done = {}
@@ -250,7 +250,7 @@ def march_block(
     Raises
     ------
     geometry.project.errors.SettingsError
-        When the step of a row is above its limit, before anything is marched.
+        When the step of a row is above its limit, before any run.
     """
     folder, keys, own = Path(folder), engine.keys, range(block, len(engine.scenes), blocks)
     done = read_parts(folder, engine.row_type)
@@ -291,7 +291,7 @@ def merge(blocks: Sequence[xr.Dataset]) -> xr.Dataset:
 
 
 def row_table(engine: Engine, runs: xr.Dataset) -> xr.Dataset:
-    """Numbers of each row: its peaks along engine orders and what stands there, its extremes."""
+    """Numbers of each row: its peaks along engine orders and the values there, its extremes."""
     numbers, of_row = _runs(runs, engine.row_type), runs["row"].values
     rows = [
         _of_row(engine, scene, numbers[of_row == row]) for row, scene in enumerate(engine.scenes, 1)

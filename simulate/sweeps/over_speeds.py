@@ -24,7 +24,7 @@ LONG = 1.0  # s, wall time above which a compilation is logged
 
 
 def tell_before(scene: Scene, rom: Rom, report: Say) -> None:
-    """Warn of doubtful values, and report what the sweep will cost."""
+    """Warn of doubtful values, and report the cost of the sweep."""
     check_scene(scene, rom)
     warn_of(doubts(scene, rom).values())
     for line in cost(scene, rom, scene.speeds.count).lines():
@@ -34,7 +34,7 @@ def tell_before(scene: Scene, rom: Rom, report: Say) -> None:
 def check_sweep(scene: Scene, rom: Rom, report: Say = silent) -> None:
     """Check a scene against its reduced model once, before its blocks: all keys, extreme speeds.
 
-    Doubtful values are warned of, and ``report`` gets what the sweep will cost.
+    Doubtful values are warned of, and ``report`` gets the cost of the sweep.
 
     Raises
     ------
@@ -68,7 +68,7 @@ def at_speeds(
 ) -> xr.Dataset:
     """Run a scene that ``tell_before`` has checked at ``speeds`` (rad/s).
 
-    All set-ups are made before the first march. Speeds in turn end with the first run that leaves
+    All set-ups are made before the first run. Speeds in turn end with the first run that leaves
     nothing to go on from.
 
     Raises
@@ -112,7 +112,7 @@ def set_up(
 ) -> Case:
     """``prepare``, and without a ``choice`` of the steps a check that they resolve the rub.
 
-    ``left``: what the run starts from.
+    ``left``: start of the run.
 
     Raises
     ------

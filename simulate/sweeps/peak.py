@@ -54,14 +54,14 @@ class Peak:
     status: str = ""
     lobes: int | None = None  # worn there, of the leading eighth; None where no wear is recorded
     course: dict[str, Any] = field(default_factory=dict, hash=False)  # ``dataset.course`` there
-    verdict: str = ""  # of second runs (``neighbour``); empty where none was marched
+    verdict: str = ""  # of second runs (``neighbour``); empty without them
     numbers: Numbers = field(default_factory=dict, hash=False)  # in the units of ``NUMBERS``
     errors: Numbers = field(default_factory=dict, hash=False)  # of each number, in its unit
     other: Numbers = field(default_factory=dict, hash=False)  # of the second of two motions
     parts: dict[str, Numbers] = field(
         default_factory=dict, hash=False
     )  # relative changes by second run
-    runs: int = 0  # marched for it
+    runs: int = 0  # made for it
     seconds: float = 0.0  # CPU time
 
     @property
@@ -113,7 +113,7 @@ def crossing_of(f: Callable[[float], float], k: int, lowest: float, highest: flo
 
 
 def critical(rom: Rom, operating: Mapping[str, Any]) -> dict[str, Any]:
-    """What the margins of operating speeds are of. Gyroscopic terms are not in the model.
+    """Critical speeds for the margins of operating speeds. Gyroscopic terms are not in the model.
 
     Parameters
     ----------

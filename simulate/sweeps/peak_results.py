@@ -1,6 +1,6 @@
-"""Results at the peaks of a sweep, each with what it were if run or model were a little other.
+"""Results at the peaks of a sweep, each with its changes by other runs and models.
 
-At the speed of each peak the run is marched again with its contact force, and beside it
+At the speed of each peak the run is repeated with its contact force, and beside it
 
     a twin      with all gaps changed by 1e-10 (``errors.neighbours``)
     two models  with all natural frequencies raised and lowered by the largest error that the check
@@ -10,8 +10,8 @@ At the speed of each peak the run is marched again with its contact force, and b
     a finer run of twice the steps, rods and strips; one of half of them is often too coarse for the
                 order of their errors to hold
 
-The uncertainty of a number is the root of the squares of these changes; in that of the amplitude is
-what a resonance between two speeds of the sweep may be higher by. A peak whose numbers jump from
+The uncertainty of a number is the root of the squares of these changes; that of the amplitude
+includes the excess of a resonance between two speeds of the sweep. A peak whose numbers jump from
 model to model has two motions (``errors.bistable``).
 """
 
@@ -46,7 +46,7 @@ OF_CONTACT = {  # numbers of a peak by their name in files, and that in ``NUMBER
     **{name: name for name in ("wear", "worn_volume", "opening", "force_peak", "torque")},
     "force": "force_mean",
 }
-CROSSED = (4, 5, 6)  # engine orders whose linear crossings are told: those of the paper
+CROSSED = (4, 5, 6)  # engine orders whose linear crossings are reported: those of the paper
 CLOSE = (-LAST, 0.0, LAST)
 LEAST_PART = 0.2  # of the largest change of a run's numbers: that of one may pass through zero
 MOST_RISE = 1.0  # between two speeds: above, the sweep does not know its peak
@@ -61,7 +61,7 @@ def results(
 ) -> list[Peak]:
     """The reported peaks of a sweep with their results; without any, where it responds most.
 
-    ``start``: as of ``closing_in.sweep``. Runs in turn are not marched again: their numbers have no
+    ``start``: as of ``closing_in.sweep``. Runs in turn are not repeated: their numbers have no
     uncertainty.
     """
     scene = to_march(runs)
@@ -131,9 +131,9 @@ def line(peak: Peak) -> str:
 
 
 def to_march(runs: xr.Dataset) -> Scene:
-    """The scene of a sweep as it is marched again at single speeds, with its contact force.
+    """The scene of a sweep for repeated runs at single speeds, with its contact force.
 
-    It has the step, rods and strips that a sweep with an accuracy was marched with.
+    It has the step, rods and strips that a sweep with an accuracy was run with.
     """
     unused = dict.fromkeys(("history", "states_rounds", "motion"))
     record = unused | {"contact_force": True, "end": False}
@@ -168,7 +168,7 @@ def _spacing(speeds: np.ndarray, index: int) -> float | None:
 
 
 def _response(runs: xr.Dataset) -> np.ndarray:
-    """What of each run says how much it responds: amplitude, else wear, else work on the rods."""
+    """Response of each run: amplitude, else wear, else work on the rods."""
     if "spectrum" in runs:
         return along_order(runs)
     if "wear" in runs:
@@ -271,5 +271,5 @@ def _sides(known: dict[float, Numbers], at: Callable[[float], Numbers]) -> list[
     """
     if max(known) > LAST:
         known = {share: at(share) if share else known[0.0] for share in CLOSE}
-    found = jump(at, known)  # adds to ``known`` what it looks at
+    found = jump(at, known)  # adds the runs in between to ``known``
     return list(known.values()) if found else None

@@ -1,6 +1,6 @@
-"""Values of a scene that can be meant but seldom are: each with what it should be if it is a slip.
+"""Unusual values of a scene: each with the likely value if it is a slip.
 
-Values that cannot be meant are refused by the scene's own ranges (``scene``).
+Impossible values are refused by the scene's own ranges (``scene``).
 """
 
 import warnings
@@ -27,7 +27,7 @@ type Doubt = tuple[bool, str, str]  # whether a value is doubtful, its key, and 
 
 
 class SceneWarning(Caution):
-    """A value that may be meant; the message has key, value, what is usual, and the likely slip."""
+    """A value that may be meant; the message has key, value, usual range, and the likely slip."""
 
 
 def warn_of(lines: Iterable[str]) -> None:
@@ -51,7 +51,7 @@ def doubts(scene: Scene, rom: Rom) -> dict[str, str]:
 
 
 def doubts_of_runs(runs: xr.Dataset) -> dict[str, str]:
-    """A line for what the runs of a sweep have gone beyond, by its key."""
+    """A line for each limit that the runs of a sweep exceed, by its key."""
     if "curve_share" not in runs or not (beyond := runs["curve_share"] > 1).any():
         return {}
     return {
