@@ -157,6 +157,9 @@ def _of_mass(fom: Matrices, of: FullMatrices) -> list[Measure]:
 def _of_stiffness(fom: Matrices, of: FullMatrices) -> list[Measure]:
     """Rigid motions need forces at the clamp alone; how fast waves run shows units.
 
+    At a speed translations e in x and y meet spin softening, K(Omega) e = -Omega^2 M e away from
+    the clamp: -Omega^2 M_spin of Eqs. (c), (d) in fem/README.md.
+
     Speed changes the matrix little, but does change it.
     """
     x, K = fom.coordinates, fom.K[0]

@@ -51,6 +51,7 @@ def test_files_of_the_page_give_results(with_files):
         "results/hot/my-hot/sweep.nc",
         "results/reference/my-table/design.csv",
         "results/figures/design-my-table.png",
+        "results/figures/campbell-my-engine.png",
     )
 
 
