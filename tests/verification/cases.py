@@ -1,0 +1,48 @@
+"""Cases of the verification page: numbers of other programs or closed forms beside ours."""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import NamedTuple
+
+
+class Row(NamedTuple):
+    """One number of another source, ours, and the largest difference that is allowed."""
+
+    quantity: str  # with its unit
+    theirs: float
+    ours: float
+    tolerance: float  # of the difference
+    scale: float | None = None  # differences are over it, else over their number
+
+    @property
+    def difference(self) -> float:
+        """Ours less theirs, over the scale."""
+        return (self.ours - self.theirs) / (abs(self.theirs) if self.scale is None else self.scale)
+
+    @property
+    def share(self) -> float:
+        """Size of the difference over its tolerance."""
+        return abs(self.difference) / self.tolerance
+
+    @property
+    def shown(self) -> str:
+        """Difference, with its sign."""
+        return f"{self.difference:+.1e}"
+
+    @property
+    def digits(self) -> tuple[str, str]:
+        """Both numbers."""
+        return f"{self.theirs:.8g}", f"{self.ours:.8g}"
+
+
+@dataclass(frozen=True)
+class Case:
+    """A comparison with one source."""
+
+    title: str
+    source: str  # of their numbers
+    compared: str  # problem, and how it was computed here
+    reason: str  # of the tolerances
+    rows: Callable[[], Iterable[Row]]
+    conclusion: str = ""  # Markdown below the table
+    nightly: bool = False  # takes long: computed by night and for the page

@@ -1,0 +1,103 @@
+"""The verification page: ./run python tests/verification/page.py [case ...]
+
+Computes the named cases, or all, writes ``numbers.json`` beside this file, and from it
+``tests/VERIFICATION.md``.
+"""
+
+import re
+import sys
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+HERE = Path(__file__).parent
+TESTS = HERE.parent
+sys.path[:0] = [str(TESTS / folder) for folder in ("verification", "fem", "geometry", "simulate")]
+
+import rod_on_stop  # noqa: E402
+import shocks  # noqa: E402
+import wright  # noqa: E402
+from cases import Case, Row  # noqa: E402
+
+from geometry.project import read_json, write_json, write_whole  # noqa: E402
+from workflow.markdown import table  # noqa: E402
+
+NUMBERS, PAGE = HERE / "numbers.json", TESTS / "VERIFICATION.md"
+COMMAND = "./run python tests/verification/page.py"
+CASES: Mapping[str, Case] = {
+    "rod-on-stop": rod_on_stop.CASE,
+    "mass-on-stop": shocks.ON_A_STOP,
+    "bar-on-wall": shocks.THROWN_BAR,
+    "rotating-beam": wright.CASE,
+}
+
+INTRODUCTION = f"""# Verification
+
+Numbers of other programs, published tables and closed forms beside ours. All are computed by
+
+    {COMMAND}
+
+(a case alone: its name behind), and [a test](verification/test_verification.py) computes them again:
+those of the cases marked * by night, the others with each `./run pytest`. Differences are relative,
+of a number that should be zero absolute."""
+
+type Rows = dict[str, list[Row]]  # by case
+
+
+def main(names: Sequence[str]) -> None:
+    """Compute cases, and write their numbers and the page."""
+    rows = read() if names else {}
+    for name in names or CASES:
+        rows[name] = list(CASES[name].rows())
+        print(f"{name}: {worst(rows[name]).share:.0%} of its tolerance at most", flush=True)
+    write_json({"cases": rows}, NUMBERS)
+    write_whole(page(rows), PAGE)
+
+
+def read() -> Rows:
+    """Rows of all cases, as they were computed."""
+    return {name: [Row(*of) for of in rows] for name, rows in read_json(NUMBERS)["cases"].items()}
+
+
+def worst(rows: Sequence[Row]) -> Row:
+    """The row that takes most of its tolerance."""
+    return max(rows, key=lambda row: row.share)
+
+
+def page(rows: Rows) -> str:
+    """Text of the page."""
+    head = ["case", "source", "numbers", "largest share of a tolerance"]
+    overview = table(head, [summary(case, rows[name]) for name, case in CASES.items()])
+    sections = [section(name, case, rows[name]) for name, case in CASES.items()]
+    return "\n\n".join([INTRODUCTION, overview, *sections]) + "\n"
+
+
+def summary(case: Case, rows: Sequence[Row]) -> list[str]:
+    """Line of a case in the overview."""
+    anchor = re.sub(r"[^\w\- ]", "", case.title.lower()).replace(" ", "-")
+    star = " *" if case.nightly else ""
+    most = worst(rows)
+    return [
+        f"[{case.title}](#{anchor}){star}",
+        case.source,
+        len(rows),
+        f"{most.share:.0%}: {most.shown} of {most.tolerance:.2g}",
+    ]
+
+
+def section(name: str, case: Case, rows: Sequence[Row]) -> str:
+    """Text of a case."""
+    facts = [
+        ("Source", f"{case.source}."),
+        ("Here", case.compared),
+        ("Tolerance", case.reason),
+        ("Command", f"`{COMMAND} {name}`"),
+    ]
+    told = "\n".join(f"- {what}: {text}" for what, text in facts)
+    head = ["quantity", "theirs", "ours", "difference", "tolerance"]
+    numbers = [[row.quantity, *row.digits, row.shown, f"{row.tolerance:.2g}"] for row in rows]
+    parts = [f"## {case.title}", told, table(head, numbers), case.conclusion]
+    return "\n\n".join(filter(None, parts))
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

@@ -1,0 +1,84 @@
+"""Elastic rods that meet a stop with their free end: "blades" whose tip moves outward."""
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import block_diag, eigh
+
+from geometry.project import Provenance, check_settings
+from rom.model import Rom
+from simulate.scene import Scene
+
+# m, of the casing and of its one strip of liner; the footprint is so small a part of the
+# circumference that the stop is flat under it
+RADIUS, WIDTH, FOOTPRINT, THICKNESS = 10.0, 0.1, 0.02, 0.1
+
+
+def clamped_rod(stiffness: float, mass: float, length: float, elements: int, highest: float) -> Rom:
+    """Model of a clamped-free rod of linear elements with consistent masses.
+
+    Parameters
+    ----------
+    stiffness : E A / L, N/m
+    mass : of the rod, kg
+    length : m
+    highest : highest speed of a scene, rad/s
+    """
+    M = _chain(elements, 2, 1) * mass / (6 * elements)
+    K = _chain(elements, 1, -1) * stiffness * elements
+    f1 = np.sqrt(eigh(K, M, eigvals_only=True)[0]) / (2 * np.pi)
+    return of_end(M, K, f1, length, highest)
+
+
+def of_end(
+    M: NDArray[np.float64], K: NDArray[np.float64], f1: float, length: float, highest: float
+) -> Rom:
+    """Model of matrices whose first DoF is the outward displacement of the end.
+
+    The interface has two points: the end is a rigid face, whose tilt, of a stiffness of its own,
+    the force in its middle does not move.
+    """
+    n = len(M)
+    to_both = np.zeros((n + 1, n + 1))  # end and others, and tilt, by the two points and others
+    to_both[0, :2] = 0.5, 0.5
+    to_both[1:n, 2:] = np.eye(n - 1)
+    to_both[n, :2] = 0.5, -0.5
+    with_tilt = [block_diag(A, A.max()) for A in (M, K)]
+    ends = np.linspace(0, WIDTH, 3)
+    M, K = (to_both.T @ A @ to_both for A in with_tilt)
+    return Rom(
+        M=M,
+        K=K[None],
+        directions=("radial",),
+        xi=np.array([0.0, 1.0]),
+        points=np.zeros((0, 3)),
+        camber=np.column_stack([np.full(3, RADIUS), np.zeros(3), ends]),
+        Omega_m=highest,
+        f1=f1,
+        span=length,
+        provenance=Provenance("rod", "", {}, ""),
+    )
+
+
+def _chain(elements: int, own: float, coupling: float) -> NDArray[np.float64]:
+    """Sum of the element matrices over the nodes from the free end on, without the clamped one."""
+    matrix = np.zeros((elements + 1, elements + 1))
+    for e in range(elements):
+        matrix[e : e + 2, e : e + 2] += [[own, coupling], [coupling, own]]
+    return matrix[:-1, :-1]
+
+
+def elastic(stiffness: float) -> dict:
+    """Law of a liner that is a stop of ``stiffness``, N/m."""
+    E = stiffness * THICKNESS / (WIDTH * FOOTPRINT)
+    return {"kind": "elastic", "E": E / 1e9, "unit_Pa": 1e9}
+
+
+def scene_of(law: dict, gap: float, **more: object) -> Scene:
+    """Scene of a stop with a ``law`` behind a ``gap`` (m)."""
+    liner = {"law": law, "thickness_m": THICKNESS, "strips": 1, "footprint_m": FOOTPRINT}
+    values = {
+        "blade": "rod",
+        "clearance": {"leading_edge_m": gap, "trailing_edge_m": gap},
+        "liner": liner | {"rods_per_round": 4093},
+    }
+    return check_settings(Scene, values | more, "rod")

@@ -1,0 +1,24 @@
+"""Every number of tests/VERIFICATION.md is within its tolerance, and is what the page shows."""
+
+import pytest
+from page import CASES, PAGE, page, read
+
+SAME = 0.1  # of a tolerance: what another machine may change
+
+
+def by_night(name: str) -> object:
+    """A case of the parametrised test, marked where it takes long."""
+    return pytest.param(name, marks=[pytest.mark.nightly] if CASES[name].nightly else [])
+
+
+@pytest.mark.parametrize("name", map(by_night, CASES))
+def test_numbers_are_theirs_and_those_of_the_page(name):
+    rows, shown = list(CASES[name].rows()), read()[name]
+    assert [row.quantity for row in rows if row.share > 1] == []
+    assert [row[:2] + row[3:] for row in rows] == [row[:2] + row[3:] for row in shown]
+    moved = [now._replace(theirs=then.ours) for now, then in zip(rows, shown, strict=True)]
+    assert [row.quantity for row in moved if row.share > SAME] == []
+
+
+def test_page_is_written_from_its_numbers():
+    assert PAGE.read_text() == page(read())
