@@ -36,9 +36,9 @@ Numbers of other programs, published tables and closed forms beside ours. All ar
 
     {COMMAND}
 
-(a case alone: its name behind), and [a test](verification/test_verification.py) computes them again:
-those of the cases marked * by night, the others with each `./run pytest`. Differences are relative,
-of a number that should be zero absolute."""
+(a case alone: its name behind), and [a test](verification/test_verification.py) computes them
+again: those of the cases marked * by night, the others with each `./run pytest`. Differences are
+relative, of a number that should be zero absolute."""
 
 type Rows = dict[str, list[Row]]  # by case
 

@@ -109,8 +109,8 @@ ON_A_STOP = Case(
     reason="half a unit of the last digit of the source, or a step of 10 us; its impulse is 1.5e-4 "
     "off its own closed form.",
     rows=on_a_stop,
-    conclusion="Cases V5.01.105 and V5.01.106 of the manual need a stop whose force falls at yield, "
-    "and masses that stick: neither is modelled here.",
+    conclusion="Cases V5.01.105 and V5.01.106 of the manual need a stop whose force falls at "
+    "yield, and masses that stick: neither is modelled here.",
 )
 THROWN_BAR = Case(
     title="A bar meets a rigid wall",

@@ -11,7 +11,7 @@ def by_night(name: str) -> object:
     return pytest.param(name, marks=[pytest.mark.nightly] if CASES[name].nightly else [])
 
 
-@pytest.mark.parametrize("name", map(by_night, CASES))
+@pytest.mark.parametrize("name", [*map(by_night, CASES)])
 def test_numbers_are_theirs_and_those_of_the_page(name):
     rows, shown = list(CASES[name].rows()), read()[name]
     assert [row.quantity for row in rows if row.share > 1] == []

@@ -21,8 +21,8 @@ def rows() -> Iterator[Row]:
 
 CASE = Case(
     title="Rotating beam",
-    source="Wright, Smith, Thresher, Wang, J. Appl. Mech. 49 (1982) 197; also the case of Bir (2009) "
-    "in pyBmodes",
+    source="Wright, Smith, Thresher, Wang, J. Appl. Mech. 49 (1982) 197; also the case of Bir "
+    "(2009) in pyBmodes",
     compared="Cantilever of quadratic tetrahedra, 1 x 0.008 x 0.01 m, `nonlinear` prestress; "
     "mu = omega / U and eta = Omega / U with U = sqrt(E I / (rho A L^4)).",
     reason="shear, rotary inertia and strain of a beam of 100 thicknesses, which the source leaves "
