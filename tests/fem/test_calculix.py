@@ -1,8 +1,8 @@
-"""CalculiX has the frequencies of our tetrahedra, and of bricks; the table of both programs."""
+"""CalculiX: digits kept of it, and its bricks; the table of both programs."""
 
 import bricks_table
+import by_calculix
 import calculix
-import exports
 import numpy as np
 import pytest
 
@@ -12,20 +12,12 @@ needs_ccx = pytest.mark.skipif(calculix.CCX is None, reason="ccx is not here (ca
 
 
 @needs_ccx
-@pytest.mark.parametrize("share", [0.0, 1.0])
-def test_tetrahedra_at_rest_and_at_top_speed(share, coarse_blade, coarse_mesh):
-    """The same ten-node cells, at speed about an equilibrium that each program finds itself.
-
-    Measured 2.5e-4 in the tenth mode: CalculiX integrates a cell at four points, which is not
-    exact where it is curved. f1 at speed is the same to 3e-7.
-    """
-    parts = exports.parts(coarse_mesh.mesh)
-    root = np.unique(parts.facets["root"])
-    cells = calculix.Cells("C3D10", 1e-3 * parts.points, parts.cells, root)
-    speed = share * coarse_blade.max_speed_rad_s
-    found = calculix.frequencies(cells, coarse_blade.material, speed).frequencies
-    expected = bricks_table.modes(coarse_blade, coarse_mesh.mesh, speed)
-    np.testing.assert_allclose(found, expected, rtol=4e-4)
+def test_digits_of_the_verification_page_are_those_of_ccx(coarse_blade, coarse_mesh):
+    """At rest and at speed, about the equilibrium that it finds itself: to its seven digits."""
+    cells, speeds = by_calculix.cells_of(coarse_mesh.mesh), (0.0, coarse_blade.max_speed_rad_s)
+    found = by_calculix.computed(cells, coarse_blade.material, speeds)
+    kept = by_calculix.theirs("reference", cells, coarse_blade.material, speeds)
+    np.testing.assert_allclose(found, kept, rtol=1e-6)
 
 
 @needs_ccx

@@ -13,6 +13,7 @@ HERE = Path(__file__).parent
 TESTS = HERE.parent
 sys.path[:0] = [str(TESTS / folder) for folder in ("verification", "fem", "geometry", "simulate")]
 
+import by_calculix  # noqa: E402
 import rod_on_stop  # noqa: E402
 import shocks  # noqa: E402
 import wright  # noqa: E402
@@ -28,6 +29,7 @@ CASES: Mapping[str, Case] = {
     "mass-on-stop": shocks.ON_A_STOP,
     "bar-on-wall": shocks.THROWN_BAR,
     "rotating-beam": wright.CASE,
+    "calculix": by_calculix.CASE,
 }
 
 INTRODUCTION = f"""# Verification
