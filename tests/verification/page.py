@@ -14,6 +14,7 @@ TESTS = HERE.parent
 sys.path[:0] = [str(TESTS / folder) for folder in ("verification", "fem", "geometry", "simulate")]
 
 import by_calculix  # noqa: E402
+import energies  # noqa: E402
 import rod_on_stop  # noqa: E402
 import shocks  # noqa: E402
 import wright  # noqa: E402
@@ -30,6 +31,7 @@ CASES: Mapping[str, Case] = {
     "bar-on-wall": shocks.THROWN_BAR,
     "rotating-beam": wright.CASE,
     "calculix": by_calculix.CASE,
+    "energies": energies.CASE,
 }
 
 INTRODUCTION = f"""# Verification
