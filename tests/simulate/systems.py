@@ -95,7 +95,7 @@ def lively(nodes=1, start=0.02):
 
 def march(system, omega, Phi_b, xi, h, steps, q, q_old, **more) -> Run:
     """Central differences from the displacements at the last two steps, modal."""
-    return _march(central_difference, system, omega, Phi_b, xi, h, steps, q, q_old, **more)
+    return march_by(central_difference, system, omega, Phi_b, xi, h, steps, q, q_old, **more)
 
 
 def march_exact(system, omega, Phi_b, xi, h, steps, q, v, w_end=None, **more) -> Run:
@@ -109,7 +109,7 @@ def march_exact(system, omega, Phi_b, xi, h, steps, q, v, w_end=None, **more) ->
     if (sliding := more.get("sliding")) is not None:
         pushed = np.atleast_2d(Phi_b) + sliding[0] * np.atleast_2d(sliding[1])
     system = in_the_middle(system, omega, Phi_b, xi, h, w_end, pushed)
-    return _march(piecewise_exact, system, omega, Phi_b, xi, h, steps, q, y, **more)
+    return march_by(piecewise_exact, system, omega, Phi_b, xi, h, steps, q, y, **more)
 
 
 def in_the_middle(system, omega, Phi_b, xi, h, w_end=None, pushed=None) -> Strips:
@@ -128,10 +128,11 @@ def in_the_middle(system, omega, Phi_b, xi, h, w_end=None, pushed=None) -> Strip
     return system._replace(placed=0.5, first=first, w_end=np.full(len(system.g0), w_end, float))
 
 
-def _march(
+def march_by(
     scheme, system, omega, Phi_b, xi, h, steps, first, second, ramp_rounds=0.0, rounds=1,
     bound=np.inf, sliding=None, ramp=None, samples=None,
 ) -> Run:  # fmt: skip
+    """March by a ``scheme`` from the two states that it keeps of a step."""
     omega, Phi_b = np.asarray(omega, float), np.atleast_2d(Phi_b).astype(float)
     if sliding is None:
         arrays = scheme.coefficients(omega, Phi_b, xi, h)
