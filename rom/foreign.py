@@ -189,8 +189,9 @@ def _shape_faults(rom: Rom, power: NDArray) -> list[str]:
             f"directions: {rom.directions}: need {tuple(DIRECTIONS.values())}, the first or more",
         ),
         (
-            0 < n_c <= n,
-            f"xi: {len(rom.xi)} places with {len(rom.directions)} directions: needs 1 to {n} DoFs",
+            len(rom.xi) > 1 and 0 < n_c <= n,
+            f"xi: {len(rom.xi)} places with {len(rom.directions)} directions: needs two places or "
+            f"more, 1 to {n} DoFs",
         ),
         (
             not rom.of_points or rom.points.shape == (len(rom.xi), 3),

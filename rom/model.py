@@ -105,7 +105,10 @@ class Rom(Stored):
             raise ValueError("Omega_m, f1 or span: not positive")
         if np.any(np.diff(self.xi) <= 0) or len(self.points) not in (0, len(self.xi)):
             raise ValueError("xi or points: not along the chord")
-        if not 0 < len(self.xi) * len(self.directions) <= self.n or len(self.camber) < 2:
+        if (
+            min(len(self.xi), len(self.camber)) < 2  # displacements are linear between places
+            or not 0 < len(self.xi) * len(self.directions) <= self.n
+        ):
             raise ValueError("directions, xi or camber: too many or too few for M")
         try:
             lowest = eigh(self.K[0], self.M, eigvals_only=True, subset_by_index=[0, 0])[0]

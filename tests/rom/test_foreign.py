@@ -102,6 +102,7 @@ def ill(rom):
         "point 2 lies": {"points": (("point", "rtz"), points)},
         "holds values that are not finite": {"span": np.nan},
         "xi: 0 places": {"xi": ("none", [])},
+        "xi: 1 places": {"xi": ("one", [0.5])},
         "xi: 8 places with 0 directions": {"directions": ("none", np.array([], str))},
         "xi: 12 places": {
             "xi": ("xi", np.linspace(0, 1, 12)),
@@ -120,7 +121,7 @@ FAULTS = (
     "f1: nan Hz", "Omega_m: 1 dimensions", "span: 0 dimensions of type <U1",
     "M: 2 dimensions of type complex128", "K (0, ", "must be above 1e-14 of its largest",
     "check the unit (rad/s", "f1: 0.259", "point 2 lies", "holds values that are not finite",
-    "xi: 0 places", "xi: 8 places with 0 directions", "xi: 12 places",
+    "xi: 0 places", "xi: 1 places", "xi: 8 places with 0 directions", "xi: 12 places",
 )  # fmt: skip
 
 
