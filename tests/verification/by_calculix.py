@@ -73,7 +73,7 @@ def rows() -> Iterator[Row]:
 
 
 CASE = Case(
-    title="Reference blade by CalculiX",
+    title="Reference blade (CalculiX)",
     source="CalculiX 2.20 on the cells of our mesh (C3D10), at speed about the equilibrium that it "
     "finds itself; a deck that [a test](fem/calculix.py) writes",
     compared="The reference blade on 768 cells.",

@@ -35,7 +35,7 @@ def rows() -> Iterator[Row]:
 
 
 CASE = Case(
-    title="Energy ledger",
+    title="Energy ledger (closed forms)",
     source="closed forms and balances: rods pressed once at constant depth; the blade's energy and "
     "its damping are the start's and the work; the orders that the schemes are built for",
     compared="A liner pressed by a blade that cannot move; three strips on eleven modes of 1 to 30 "

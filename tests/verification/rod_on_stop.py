@@ -100,7 +100,7 @@ def linear(rom: Rom, w: float) -> complex:
 
 
 CASE = Case(
-    title="Rod against an elastic stop",
+    title="A rod against an elastic stop (NLvib)",
     source="harmonic balance of NLvib, in the example `rod_example` of pyhbm (commit 9ab760a), "
     "after Vadcard, Batailly, Thouverez, J. Sound Vib. 531 (2022) 116950",
     compared="A clamped rod of 20 linear elements has a force of 25 kN cos(w t) on its free end, "

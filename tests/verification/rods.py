@@ -1,4 +1,4 @@
-"""Elastic rods that meet a stop with their free end: "blades" whose tip moves outward."""
+"""Rods and masses that meet a stop: "blades" whose tip they are."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,35 +25,41 @@ def clamped_rod(stiffness: float, mass: float, length: float, elements: int, hig
     """
     M = _chain(elements, 2, 1) * mass / (6 * elements)
     K = _chain(elements, 1, -1) * stiffness * elements
-    f1 = np.sqrt(eigh(K, M, eigvals_only=True)[0]) / (2 * np.pi)
-    return of_end(M, K, f1, length, highest)
+    return of_end(M, K, ("radial",), length, highest)
 
 
 def of_end(
-    M: NDArray[np.float64], K: NDArray[np.float64], f1: float, length: float, highest: float
+    M: NDArray[np.float64],
+    K: NDArray[np.float64],
+    directions: tuple[str, ...],
+    length: float,
+    highest: float,
 ) -> Rom:
-    """Model of matrices whose first DoF is the outward displacement of the end.
+    """Model of matrices whose first DoFs are the displacements of the end in some directions.
 
-    The interface has two points: the end is a rigid face, whose tilt, of a stiffness of its own,
-    the force in its middle does not move.
+    The interface has two places: the end is a rigid face, whose tilts, of masses and stiffnesses of
+    their own, the force in its middle does not move.
     """
-    n = len(M)
-    to_both = np.zeros((n + 1, n + 1))  # end and others, and tilt, by the two points and others
-    to_both[0, :2] = 0.5, 0.5
-    to_both[1:n, 2:] = np.eye(n - 1)
-    to_both[n, :2] = 0.5, -0.5
-    with_tilt = [block_diag(A, A.max()) for A in (M, K)]
+    n, many = len(M), len(directions)
+    to_both = np.eye(
+        n + many
+    )  # displacements, tilts and others, by those of both places and others
+    to_both[: 2 * many, : 2 * many] = np.kron([[0.5, 0.5], [0.5, -0.5]], np.eye(many))
+    with_tilts = np.r_[:many, n : n + many, many:n]
+    M, K = (
+        to_both.T @ block_diag(A, A.max() * np.eye(many))[np.ix_(with_tilts, with_tilts)] @ to_both
+        for A in (M, K)
+    )
     ends = np.linspace(0, WIDTH, 3)
-    M, K = (to_both.T @ A @ to_both for A in with_tilt)
     return Rom(
         M=M,
         K=K[None],
-        directions=("radial",),
+        directions=directions,
         xi=np.array([0.0, 1.0]),
         points=np.zeros((0, 3)),
         camber=np.column_stack([np.full(3, RADIUS), np.zeros(3), ends]),
         Omega_m=highest,
-        f1=f1,
+        f1=np.sqrt(eigh(K, M, eigvals_only=True)[0]) / (2 * np.pi),
         span=length,
         provenance=Provenance("rod", "", {}, ""),
     )

@@ -20,7 +20,7 @@ def rows() -> Iterator[Row]:
 
 
 CASE = Case(
-    title="Rotating beam",
+    title="Rotating beam (Wright et al.)",
     source="Wright, Smith, Thresher, Wang, J. Appl. Mech. 49 (1982) 197; also the case of Bir "
     "(2009) in pyBmodes",
     compared="Cantilever of quadratic tetrahedra, 1 x 0.008 x 0.01 m, `nonlinear` prestress; "
