@@ -91,8 +91,8 @@ CASE = Case(
     title="A mass that slides with friction (code_aster)",
     source="closed form in code_aster's validation manual, V5.01.106 (SDND106)",
     compared="5 kg each, 1e4 N/m, 3000 N on the second mass to 0.2 s, the first pressed by 1e4 N "
-    "on a plane, friction 0.2 while it slides. The simulator has the friction alone, from the start "
-    "of sliding on; the motion without it is added.",
+    "on a plane, friction 0.2 while it slides. The simulator has the friction alone, from the "
+    "start of sliding on; the motion without it is added.",
     reason="the source rounds to five decimals and starts the sliding 1e-6 s late: 1.3e-5.",
     rows=rows,
 )
