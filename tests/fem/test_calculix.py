@@ -5,6 +5,7 @@ import by_calculix
 import calculix
 import numpy as np
 import pytest
+import rotor67
 
 from geometry.project import read_json
 
@@ -12,12 +13,15 @@ needs_ccx = pytest.mark.skipif(calculix.CCX is None, reason="ccx is not here (ca
 
 
 @needs_ccx
-def test_digits_of_the_verification_page_are_those_of_ccx(coarse_blade, coarse_mesh):
+@pytest.mark.parametrize(
+    "case", [by_calculix.CASE, pytest.param(rotor67.CASE, marks=pytest.mark.nightly)]
+)
+def test_digits_of_the_verification_page_are_those_of_ccx(case, tmp_path, monkeypatch):
     """At rest and at speed, about the equilibrium that it finds itself: to its seven digits."""
-    cells, speeds = by_calculix.cells_of(coarse_mesh.mesh), (0.0, coarse_blade.max_speed_rad_s)
-    found = by_calculix.computed(cells, coarse_blade.material, speeds)
-    kept = by_calculix.theirs("reference", cells, coarse_blade.material, speeds)
-    np.testing.assert_allclose(found, kept, rtol=1e-6)
+    kept = [row.theirs for row in case.rows()]
+    monkeypatch.setattr(by_calculix, "PINS", tmp_path / "calculix.json")
+    found = [row.theirs for row in case.rows()]
+    np.testing.assert_allclose(found, kept, rtol=1e-6, atol=1e-6)
 
 
 @needs_ccx

@@ -3,7 +3,7 @@
 Their digits are kept in ``calculix.json``, for machines without `ccx`.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -21,23 +21,24 @@ from geometry.mesh import build_mesh
 from geometry.project import ROOT, read_json, write_json
 
 PINS = Path(__file__).with_name("calculix.json")
-# of curved cells, which CalculiX integrates at four points; f1 of the coarse blade, the least
-# curved mode, agrees to 3e-7
-TOLERANCE = 4e-4
+TOLERANCE = 4e-4  # of curved cells, which CalculiX integrates at four points
 
 
-def theirs(name: str, cells: Cells, material: Material, speeds: Sequence[float]) -> list[list]:
-    """Frequencies of CalculiX, Hz, at each speed (rad/s): as kept, and where not, computed."""
-    pins = read_json(PINS)["frequencies_Hz"] if PINS.exists() else {}
+def kept[T](name: str, compute: Callable[[], T]) -> T:
+    """Digits of CalculiX: as kept, and where not, computed."""
+    pins = read_json(PINS)["digits"] if PINS.exists() else {}
     if name not in pins:
-        pins[name] = computed(cells, material, speeds)
-        write_json({"version": calculix.version(), "frequencies_Hz": pins}, PINS)
+        pins[name] = compute()
+        write_json({"version": calculix.version(), "digits": pins}, PINS)
     return pins[name]
 
 
-def computed(cells: Cells, material: Material, speeds: Sequence[float]) -> list[list[float]]:
-    """Frequencies of CalculiX, Hz, at each speed, rad/s."""
-    return [calculix.frequencies(cells, material, speed).frequencies.tolist() for speed in speeds]
+def theirs(name: str, cells: Cells, material: Material, speeds: Sequence[float]) -> list[list]:
+    """Frequencies of CalculiX, Hz, at each speed (rad/s)."""
+    return kept(
+        name,
+        lambda: [calculix.frequencies(cells, material, of).frequencies.tolist() for of in speeds],
+    )
 
 
 def coarse() -> Blade:
@@ -53,12 +54,15 @@ def cells_of(mesh: Path) -> Cells:
 
 
 def beside(
-    speeds: Sequence[float], of_calculix: list[list], ours: Sequence[NDArray[np.float64]]
+    speeds: Sequence[float],
+    of_calculix: list[list],
+    ours: Sequence[NDArray[np.float64]],
+    tolerance: float = TOLERANCE,
 ) -> Iterator[Row]:
     """Frequencies of both at each speed."""
     for speed, *both in zip(speeds, of_calculix, ours, strict=True):
         for mode, (a, b) in enumerate(zip(*both, strict=True), 1):
-            yield Row(f"f{mode} at {speed:g} rad/s, Hz", a, float(b), TOLERANCE)
+            yield Row(f"f{mode} at {speed:g} rad/s, Hz", a, float(b), tolerance)
 
 
 def rows() -> Iterator[Row]:

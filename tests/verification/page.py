@@ -16,6 +16,8 @@ sys.path[:0] = [str(TESTS / folder) for folder in ("verification", "fem", "geome
 import by_calculix  # noqa: E402
 import energies  # noqa: E402
 import rod_on_stop  # noqa: E402
+import rotor37_surfaces  # noqa: E402
+import rotor67  # noqa: E402
 import shocks  # noqa: E402
 import two_masses  # noqa: E402
 import wright  # noqa: E402
@@ -33,6 +35,8 @@ CASES: Mapping[str, Case] = {
     "bar-on-wall": shocks.THROWN_BAR,
     "rotating-beam": wright.CASE,
     "calculix": by_calculix.CASE,
+    "rotor67": rotor67.CASE,
+    "rotor37-surfaces": rotor37_surfaces.CASE,
     "energies": energies.CASE,
 }
 
