@@ -225,10 +225,22 @@ def massless_run(scene: Scene, setup: Setup, of: Massless) -> Run:
     return _marched(scene, setup, scheme, at_the_end(setup.strips), over_outputs(of))
 
 
-def own_run(scene: Scene, setup: Setup, scheme: Any = piecewise_exact) -> Run:
-    """The same run by a scheme of the product."""
-    arrays = scheme.coefficients(setup.omega, setup.Phi_b, scene.damping_ratio, setup.h)
-    return _marched(scene, setup, arrays, setup.strips, padded_rows(setup.Phi_out))
+def own_run(scene: Scene, setup: Setup, scheme: Scheme | None = None) -> Run:
+    """The same run by ``piecewise_exact``, or by another ``scheme`` of the product."""
+    of_modes = setup.omega, setup.Phi_b, scene.damping_ratio, setup.h
+    scheme = scheme or piecewise_exact.coefficients(*of_modes)
+    return _marched(scene, setup, scheme, setup.strips, padded_rows(setup.Phi_out))
+
+
+def exact_but_static(setup: Setup, zeta: float, r: int) -> Scheme:
+    """``piecewise_exact`` with the ``r`` lowest modes, and the others static as in ``macneal``."""
+    scheme = piecewise_exact.coefficients(setup.omega, setup.Phi_b, zeta, setup.h)
+    m, n = setup.Phi_b.shape
+    for array in (scheme.a, scheme.b, scheme.loss, scheme.gain):
+        array[..., r:] = 0.0
+    scheme.gain[0, r:n] = 1 / setup.omega[r:] ** 2
+    scheme.C[:m, :m] = setup.Phi_b * scheme.gain[0, :n] @ setup.Phi_b.T
+    return scheme
 
 
 def _marched(

@@ -15,6 +15,7 @@ sys.path[:0] = [str(TESTS / folder) for folder in ("verification", "fem", "geome
 
 import by_calculix  # noqa: E402
 import energies  # noqa: E402
+import massless_boundary  # noqa: E402
 import rod_on_stop  # noqa: E402
 import rotor37_surfaces  # noqa: E402
 import rotor67  # noqa: E402
@@ -38,6 +39,8 @@ CASES: Mapping[str, Case] = {
     "rotor67": rotor67.CASE,
     "rotor37-surfaces": rotor37_surfaces.CASE,
     "energies": energies.CASE,
+    "massless-boundary": massless_boundary.CASE,
+    "rotor37-rub": massless_boundary.ROTOR_37,
 }
 
 INTRODUCTION = f"""# Verification
