@@ -212,9 +212,9 @@ runs, the compiled kernel alone; in brackets the modes that move.
   alone within the error. Its free motion is exact, its force a mean over the way in the step. The
   error of a massless boundary ends at the inertia of the modes left out; with more modes its steps
   get shorter (30 on a rigid casing: over 10,000 per revolution).
-- Central differences, with mass at the interface, take some twenty times as long: against them the
-  paper's claim of one to two orders holds. A step with a massless boundary takes nearly as long as
-  one of `piecewise-exact`: contact is most of it.
+- Central differences, with mass at the interface and none scaled, take some twenty times as long:
+  against them the paper's claim of one to two orders holds. A step with a massless boundary takes
+  nearly as long as one of `piecewise-exact`: contact is most of it.
 - To take: a third scheme, near 110 statements, 70 as in the test code, the others for ledger,
   starts, refusals and settings; for drafts on rigid casings alone. Static modes within
   `piecewise-exact` are not worth it: their error is of order one.
