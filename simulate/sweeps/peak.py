@@ -22,7 +22,7 @@ from simulate.errors.signals import amplitude, leading_gap
 from simulate.scene import BESIDE
 from simulate.sweeps.dataset import scene_of
 
-ORDERS = range(3, 15)  # engine orders along which peaks are sought
+ORDERS = range(3, 15)  # engine orders along which peaks are sought, beside those of a scene
 # Speeds over the crossing at which a peak may lie: contact stiffens, a tangential force may soften
 STIFFENED, SOFTENED, HIGHEST = 0.97, 0.93, 1.4
 BEYOND = 1.25  # of Omega_m: no farther than there are frequencies extrapolated
@@ -166,9 +166,13 @@ def along_order(runs: xr.Dataset, k: int | None = None) -> NDArray[np.float64]:
 
 def peak_of(runs: xr.Dataset, rom: Rom, k: int) -> Peak | None:
     """Peak of a sweep along engine order ``k``; None without a result near the crossing."""
-    tangential = scene_of(runs).contact.along
-    speeds = runs["speed_over_f1"].values
-    return peak_among(speeds, partial(along_order, runs), k, crossing(rom, k), tangential)
+    return peak_among(
+        runs["speed_over_f1"].values,
+        partial(along_order, runs),
+        k,
+        crossing(rom, k),
+        tangential=scene_of(runs).contact.along,
+    )
 
 
 def peak_among(
@@ -212,11 +216,12 @@ def sidebands_of(k: int) -> list[int]:
 
 
 def peaks_of(runs: xr.Dataset, rom: Rom) -> dict[int, Peak]:
-    """Peaks of a sweep by engine order, for those in ``ORDERS`` that have one.
+    """Peaks of a sweep by engine order, for those in ``ORDERS`` or of its scene that have one.
 
     None without spectra.
     """
-    orders = ORDERS if "spectrum" in runs else ()
+    asked = scene_of(runs).peaks
+    orders = sorted({*ORDERS, *(asked.orders if asked else ())}) if "spectrum" in runs else ()
     return {k: peak for k in orders if (peak := peak_of(runs, rom, k))}
 
 

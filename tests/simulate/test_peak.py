@@ -78,6 +78,17 @@ def test_peaks_that_are_low_coupled_or_far_from_the_crossing_are_not_reported(
     assert reported(coarse_rom, **peaks) == orders
 
 
+def test_a_peak_is_reported_of_any_order_that_the_scene_asks_for(coarse_rom):
+    """As of EO 2 on rotor 67; here the crossing of EO 15 is at 0.067."""
+    runs = responding(coarse_rom, k15=(0.14, 2.0)).assign_coords(speed_over_f1=SPEEDS / 2)
+    asking = scene(
+        rounds=10, record__spectrum_rounds=10, peaks={"orders": [15], "within_over_f1": 1e-3}
+    )
+    assert 15 not in peaks_of(runs, coarse_rom)
+    peak = peaks_of(runs.assign_attrs(scene=asking.model_dump_json()), coarse_rom)[15]
+    assert peak.reported and peak.Omega_c == pytest.approx(0.07)
+
+
 def test_only_a_tangential_force_may_bring_a_peak_below_the_crossing(coarse_rom):
     below = 0.95 * crossing(coarse_rom, 4)
     radial = responding(coarse_rom, k4=(below, 2.0))
