@@ -6,22 +6,31 @@ import calculix
 import numpy as np
 import pytest
 import rotor67
+import rotor67_rub
 
 from geometry.project import read_json
 
 needs_ccx = pytest.mark.skipif(calculix.CCX is None, reason="ccx is not here (calculix-ccx)")
 
 
+def digits_of(case):
+    return [row.theirs for row in case.rows()]
+
+
 @needs_ccx
 @pytest.mark.parametrize(
-    "case", [by_calculix.CASE, pytest.param(rotor67.CASE, marks=pytest.mark.nightly)]
+    "digits",
+    [
+        pytest.param(lambda: digits_of(by_calculix.CASE), id="reference"),
+        pytest.param(lambda: digits_of(rotor67.CASE), id="rotor67", marks=pytest.mark.nightly),
+        pytest.param(lambda: rotor67_rub.models()[1], id="rub", marks=pytest.mark.nightly),
+    ],
 )
-def test_digits_of_the_verification_page_are_those_of_ccx(case, tmp_path, monkeypatch):
+def test_digits_of_the_verification_page_are_those_of_ccx(digits, tmp_path, monkeypatch):
     """At rest and at speed, about the equilibrium that it finds itself: to its seven digits."""
-    kept = [row.theirs for row in case.rows()]
+    kept = digits()
     monkeypatch.setattr(by_calculix, "PINS", tmp_path / "calculix.json")
-    found = [row.theirs for row in case.rows()]
-    np.testing.assert_allclose(found, kept, rtol=1e-6, atol=1e-6)
+    np.testing.assert_allclose(digits(), kept, rtol=1e-6, atol=1e-6)
 
 
 @needs_ccx

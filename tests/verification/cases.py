@@ -9,7 +9,7 @@ class Row(NamedTuple):
     """One number of another source, ours, and the largest difference that is allowed."""
 
     quantity: str  # with its unit
-    theirs: float
+    theirs: float | None  # None where there is ours alone, which then has no difference
     ours: float
     tolerance: float  # of the difference
     scale: float | None = None  # differences are over it, else over their number
@@ -17,6 +17,8 @@ class Row(NamedTuple):
     @property
     def difference(self) -> float:
         """Ours less theirs, over the scale."""
+        if self.theirs is None:
+            return 0.0
         return (self.ours - self.theirs) / (abs(self.theirs) if self.scale is None else self.scale)
 
     @property
@@ -27,12 +29,12 @@ class Row(NamedTuple):
     @property
     def shown(self) -> str:
         """Difference, with its sign."""
-        return f"{self.difference:+.1e}"
+        return "" if self.theirs is None else f"{self.difference:+.1e}"
 
     @property
     def digits(self) -> tuple[str, str]:
         """Both numbers."""
-        return f"{self.theirs:.8g}", f"{self.ours:.8g}"
+        return "" if self.theirs is None else f"{self.theirs:.8g}", f"{self.ours:.8g}"
 
 
 @dataclass(frozen=True)

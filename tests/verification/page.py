@@ -19,6 +19,7 @@ import massless_boundary  # noqa: E402
 import rod_on_stop  # noqa: E402
 import rotor37_surfaces  # noqa: E402
 import rotor67  # noqa: E402
+import rotor67_rub  # noqa: E402
 import shocks  # noqa: E402
 import two_masses  # noqa: E402
 import wright  # noqa: E402
@@ -37,6 +38,7 @@ CASES: Mapping[str, Case] = {
     "rotating-beam": wright.CASE,
     "calculix": by_calculix.CASE,
     "rotor67": rotor67.CASE,
+    "rotor67-rub": rotor67_rub.CASE,
     "rotor37-surfaces": rotor37_surfaces.CASE,
     "energies": energies.CASE,
     "massless-boundary": massless_boundary.CASE,

@@ -25,13 +25,24 @@ MODES = 10
 TOLERANCE = 1e-4
 
 
+def coarse() -> Blade:
+    """The blade on some 2,800 cells."""
+    return given(Blade.load(FILE), mesh={"element_size_mm": 6.0})
+
+
+def mesh_at_rest(blade: Blade, folder: str) -> Path:
+    """Mesh of the shape at rest, in a folder."""
+    mesh = Path(folder) / "blade.msh"
+    build_mesh_at_rest(blade, mesh, FILE.parent / blade.file)
+    return mesh
+
+
 def rows() -> Iterator[Row]:
     """Ten frequencies at rest and at design speed, and what the speed does to the tip."""
-    blade = given(Blade.load(FILE), mesh={"element_size_mm": 6.0})
+    blade = coarse()
     speeds = 0.0, blade.geometry_at_rpm / RPM
     with TemporaryDirectory() as folder:
-        mesh = Path(folder) / "blade.msh"
-        build_mesh_at_rest(blade, mesh, FILE.parent / blade.file)
+        mesh = mesh_at_rest(blade, folder)
         cells, tip = cells_of(mesh), np.unique(facets_of(read(mesh), "tip"))
         matrices = assemble(blade, "rotor67", mesh, speeds)
     omega = [ShiftInvert(K, matrices.M).modes(MODES).omega for K in matrices.K]
