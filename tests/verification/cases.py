@@ -47,4 +47,6 @@ class Case:
     reason: str  # of the tolerances
     rows: Callable[[], Iterable[Row]]
     conclusion: str = ""  # Markdown below the table
+    by: str = "theirs"  # head of their numbers
+    study: bool = False  # a second method or model of this project, not a source outside
     nightly: bool = False  # takes long: computed by night and for the page

@@ -55,6 +55,8 @@ Numbers of other programs, published tables and closed forms beside ours. All ar
 again: those of the cases marked * by night, the others with each `./run pytest`. Differences are
 relative, of a number that should be zero absolute."""
 
+STUDIES = "Studies of methods and models of the project itself, with nothing from outside:"
+
 type Rows = dict[str, list[Row]]  # by case
 
 
@@ -79,23 +81,24 @@ def worst(rows: Sequence[Row]) -> Row:
 
 
 def page(rows: Rows) -> str:
-    """Text of the page."""
-    head = ["case", "numbers", "largest difference over its tolerance"]
-    overview = table(head, [summary(case, rows[name]) for name, case in CASES.items()])
+    """Text of the page: cases with numbers of others, then studies of the project's own."""
+    parts = [INTRODUCTION, overview(rows, study=False), STUDIES, overview(rows, study=True)]
     sections = [section(name, case, rows[name]) for name, case in CASES.items()]
-    return "\n\n".join([INTRODUCTION, overview, *sections]) + "\n"
+    return "\n\n".join([*parts, *sections]) + "\n"
 
 
-def summary(case: Case, rows: Sequence[Row]) -> list[str]:
+def overview(rows: Rows, study: bool) -> str:
+    """Table of the cases, or of the studies, with the row that is nearest to its tolerance."""
+    head = ["case", "numbers", "difference nearest to its tolerance", "tolerance"]
+    shown = [summary(case, rows[name]) for name, case in CASES.items() if case.study == study]
+    return table(head, shown)
+
+
+def summary(case: Case, rows: Sequence[Row]) -> list[object]:
     """Line of a case in the overview."""
     anchor = re.sub(r"[^\w\- ]", "", case.title.lower()).replace(" ", "-")
-    star = " *" if case.nightly else ""
-    most = worst(rows)
-    return [
-        f"[{case.title}](#{anchor}){star}",
-        len(rows),
-        f"{most.share:.0%}: {most.shown} of {most.tolerance:.2g}",
-    ]
+    star, most = " *" if case.nightly else "", worst(rows)
+    return [f"[{case.title}](#{anchor}){star}", len(rows), most.shown, f"{most.tolerance:.2g}"]
 
 
 def section(name: str, case: Case, rows: Sequence[Row]) -> str:
@@ -107,7 +110,7 @@ def section(name: str, case: Case, rows: Sequence[Row]) -> str:
         ("Command", f"`{COMMAND} {name}`"),
     ]
     told = "\n".join(f"- {what}: {text}" for what, text in facts)
-    head = ["quantity", "theirs", "ours", "difference", "tolerance"]
+    head = ["quantity", case.by, "ours", "difference", "tolerance"]
     numbers = [[row.quantity, *row.digits, row.shown, f"{row.tolerance:.2g}"] for row in rows]
     parts = [f"## {case.title}", told, table(head, numbers), case.conclusion]
     return "\n\n".join(filter(None, parts))
