@@ -73,8 +73,8 @@ CASE = Case(
     "60 revolutions, elements of 6 mm. The model needs nine speeds, as the blade untwists by two "
     "degrees.",
     reason="the reduced model errs by up to 0.05 % in f1 (its check), in the crossing by twice as "
-    "much; both programs integrate the same equations; numbers that only we have may change by a tenth "
-    "of the tolerance, as by another speed of the sweep.",
+    "much; both programs integrate the same equations; numbers that only we have may change by a "
+    "tenth of the tolerance, as by another speed of the sweep.",
     rows=rows,
     nightly=True,
 )
