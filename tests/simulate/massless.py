@@ -15,8 +15,8 @@ with the residual flexibility R = P K^-1 P^T - Phi_b Lambda^-1 Phi_b^T of the in
     u_b = Phi_b q - R F,    q'' + 2 zeta Lambda^1/2 q' + Lambda q + Phi_b^T F = 0,
 
 also where R is singular, as with more strips than patches. The paper's second reduction, of Craig
-and Bampton, is brought to the same form. Inside the march is leapfrog, with velocities at half
-steps; the contact is static, and set-valued on a rigid casing, at the time of each step:
+and Bampton, is brought to the same form. Time integration is leapfrog, with velocities at half
+steps; contact is static, and set-valued on a rigid casing, at the time of each step:
 
     q_n = q_{n-1} + h v_{n-1/2},    Phi_b q_n = u_b + R F(u_b),
     (1 + zeta w h) v_{n+1/2} = (1 - zeta w h) v_{n-1/2} - h (w^2 q_n + Phi_b^T F_n).

@@ -77,19 +77,19 @@ def test_a_one_sided_spring_in_series_sets_the_frequency_and_takes_no_energy():
     assert u[-int(period / h) :].min() == pytest.approx(-1, abs=h**2)
 
 
-@pytest.mark.parametrize("moving", [10, 40])
-def test_an_elastic_bar_meets_a_rigid_stop(moving):
+@pytest.mark.parametrize("dynamic", [10, 40])
+def test_an_elastic_bar_meets_a_rigid_stop(dynamic):
     """Impulse 2 m v0 in 2 L/c0; of eighty free modes half or more bear no mass."""
     modes, v0, h = 80, 1e-3, 2e-3
     omega = np.pi * np.arange(modes)
     omega[0] = SOFT
     end = np.where(np.arange(modes) == 0, 1.0, np.sqrt(2))[None]
-    R = (end[:, moving:] / omega[moving:] ** 2) @ end[:, moving:].T
-    of = model(omega[:moving], end[:, :moving], R)
+    R = (end[:, dynamic:] / omega[dynamic:] ** 2) @ end[:, dynamic:].T
+    of = model(omega[:dynamic], end[:, :dynamic], R)
     assert h < step_limit(of, np.array([np.inf]))
     system = strips(rod_law(Rigid, numbers_of()()), 0.0, np.zeros(4), rigid_from=0.0)
-    start = v0 * (np.arange(moving) == 0)
-    run = massless(system, of, 0.0, h, int(2.6 / h), np.zeros(moving), start)
+    start = v0 * (np.arange(dynamic) == 0)
+    run = massless(system, of, 0.0, h, int(2.6 / h), np.zeros(dynamic), start)
     assert run.force[0, 1, 0] * h == pytest.approx(2 * v0, rel=0.02)
     assert run.u[-1, 0] / v0 == pytest.approx(-0.6, abs=0.01)
     assert run.ledger.blade == pytest.approx(run.start_energy, rel=1e-3)
@@ -185,7 +185,7 @@ def left(case, setup, models):
 
 
 @pytest.mark.parametrize("law", LAWS, ids=lambda law: law["kind"])
-def test_with_more_moving_modes_the_run_nears_that_of_the_product(coarse_rom, law):
+def test_with_more_dynamic_modes_the_run_nears_that_of_the_product(coarse_rom, law):
     """What is left is the inertia of the other modes: most on a rigid casing."""
     case = rubbing(32768, **law)
     setup = set_up(case, coarse_rom)
@@ -219,7 +219,7 @@ def test_both_reductions_keep_the_static_compliance(coarse_rom):
 
 
 def test_static_modes_in_the_product_s_scheme_have_the_same_limit(coarse_rom):
-    """The same equations by another scheme; of order one in the step, four times as near."""
+    """The same equations by another scheme; first order in the step, four times as near."""
     differences = []
     for steps in (16384, 65536):
         case = rubbing(steps, **LAWS[1])
