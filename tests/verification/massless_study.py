@@ -3,8 +3,9 @@
     ./run python tests/verification/massless_study.py
 
 measures all settings on the reference blade, and writes ``massless_study.json`` and
-``massless_study.png``. Errors are against ``piecewise-exact`` with 65536 steps per revolution. CPU
-times are those of the compiled kernel alone, in one process, the least of some repeats.
+``massless_study.png``. Errors are against ``piecewise-exact`` with 65536 steps per revolution on a
+basis of 60 natural modes: those of step and reduced model together. CPU times are those of the
+compiled kernel alone, in one process, the least of some repeats.
 """
 
 import os
@@ -20,14 +21,17 @@ sys.path[:0] = [str(HERE), str(HERE.parent / "simulate")]
 os.environ["OMP_NUM_THREADS"] = "1"
 
 from massless import Run  # noqa: E402
-from massless_boundary import (  # noqa: E402
-    FEW,
+from massless_runs import (  # noqa: E402
+    CENTRAL,
+    FIXED,
     LAWS,
-    MANY,
+    MASSLESS,
     MEASURED,
-    OTHERS,
     OWN,
     PEAK,
+    RICH,
+    STATIC,
+    USUAL,
     Method,
     Rub,
     central,
@@ -45,42 +49,41 @@ from workflow.figures import style  # noqa: E402
 from workflow.markdown import rounded  # noqa: E402
 
 SPEEDS = 0.30, 0.34, PEAK  # over f1(0)
-STEPS = [shares << k for k in range(7, 14) for shares in (2, 3)][:-1]  # per revolution
-CONVERGED = 65536
+STEPS = [shares << k for k in range(7, 13) for shares in (2, 3)][:-1]  # per revolution
+CONVERGED, RICHER = 65536, 90  # steps, natural modes
+EVERY = range(len(SPEEDS))
 FRACTIONS = [0.8, 0.4, 0.2]  # of the stability limit
-LEVELS = 0.1, 0.03, 0.01, 0.003, 0.001
-MASSLESS, CENTRAL, STATIC = OTHERS
+LEVELS = 0.1, 0.03, 0.01, 0.003
+DYNAMIC = 6, 10, 16, 20, 24, 30, 40, 60
 
 
 class Tried(NamedTuple):
     """A method, its settings, and how it is drawn."""
 
     method: str
-    modes: int | None  # that move; None: all
+    modes: int  # dynamic ones; of the product: natural modes of the basis
     run: Method
     settings: Sequence[float] = STEPS  # per revolution, or fractions of the limit
     line: str = ""  # not drawn
     colour: str = ""
+    basis: int = RICH  # natural modes
     repeats: int = 3
 
     @property
     def name(self) -> str:
         """Its name in the picture."""
-        return self.method + (f", {self.modes} modes move" if self.modes else "")
+        kind = "dynamic" if self.method == MASSLESS else "natural"
+        return f"{self.method}, {self.modes} {kind} modes"
 
 
-def _massless(modes: int, line: str, colour: str) -> Tried:
-    return Tried(MASSLESS, modes, partial(massless, modes), STEPS, line, colour)
-
-
+DRAWN = {10: ("s--", style.VERMILLION), 24: ("^-.", style.BLUE), 40: ("D:", style.GREEN)}
 METHODS = [
-    Tried(OWN, None, exact, STEPS, "o-", style.BLACK),
-    _massless(6, "v:", style.GREY),
-    _massless(10, "s--", style.VERMILLION),
-    _massless(FEW, "^-.", style.BLUE),
-    _massless(MANY, "D:", style.GREEN),
-    Tried(CENTRAL, None, central, FRACTIONS, "x--", style.GREY, repeats=1),
-    Tried(STATIC, FEW, partial(exact_with_static, FEW)),
+    Tried(OWN, USUAL, exact, STEPS, "o-", style.BLACK, USUAL),
+    Tried(OWN, RICH, exact, STEPS, ".--", style.BLACK),
+    *(Tried(MASSLESS, r, partial(massless, r), STEPS, *DRAWN.get(r, ())) for r in DYNAMIC),
+    Tried(CENTRAL, USUAL, central, FRACTIONS, "x--", style.GREY, USUAL, repeats=1),
+    Tried(FIXED, 24, partial(massless, 24, fixed=True), STEPS[-1:], repeats=1),
+    Tried(STATIC, 24, partial(exact_with_static, 24), STEPS[6::2], repeats=1),
 ]
 
 
@@ -89,32 +92,41 @@ class Point(NamedTuple):
 
     casing: str
     method: str
-    modes: int | None
+    modes: int
     setting: float
-    error: float  # largest
-    cpu: float  # s, of the runs at all speeds
+    errors: list[float]  # at each speed
+    cpu: list[float]  # s, of the run at each
+
+    def at(self, speeds: Sequence[int]) -> float:
+        """CPU time at some speeds, s."""
+        return sum(self.cpu[k] for k in speeds)
 
 
 def main() -> None:
     """Measure, write, draw."""
     points = [*measure()]
-    write_json({"points": points, "levels": cheapest(points)}, MEASURED)
+    write_json({"basis": of_the_basis(), "points": points, "levels": cheapest(points)}, MEASURED)
     style.save(picture(points), MEASURED.with_suffix(".png"))
+
+
+def rubs_on(natural_modes: int, law: dict) -> list[Rub]:
+    """At all speeds, which are those of the rich basis, on another basis."""
+    rom = model("reference", 5.0, natural_modes)
+    at = [rub(model("reference", 5.0, RICH), law, over_f1) for over_f1 in SPEEDS]
+    return [of._replace(rom=rom) for of in at]
 
 
 def measure() -> Iterator[Point]:
     """Errors and CPU times of all settings that are stable at all speeds."""
-    rom = model("reference", 5.0)
     for casing, law in LAWS.items():
-        rubs = [rub(rom, law, over_f1) for over_f1 in SPEEDS]
-        converged = [exact(of, CONVERGED) for of in rubs]
+        converged = [exact(of, CONVERGED) for of in rubs_on(RICH, law)]
         for tried in METHODS:
             for setting in tried.settings:
-                runs = [timed(tried, of, setting) for of in rubs]
+                runs = [timed(tried, of, setting) for of in rubs_on(tried.basis, law)]
                 if None not in runs:
-                    worst, cpu = max(map(error, runs, converged)), sum(run.cpu for run in runs)
-                    of = casing, tried.method, tried.modes, setting
-                    yield Point(*of, rounded(worst, 4), rounded(cpu, 4))
+                    errors = [rounded(of, 4) for of in map(error, runs, converged)]
+                    cpu = [rounded(run.cpu, 3) for run in runs]
+                    yield Point(casing, tried.method, tried.modes, setting, errors, cpu)
 
 
 def timed(tried: Tried, of: Rub, setting: float) -> Run | None:
@@ -123,27 +135,46 @@ def timed(tried: Tried, of: Rub, setting: float) -> Run | None:
     return None if None in runs else min(runs, key=lambda run: run.cpu)
 
 
+def of_the_basis() -> dict[str, float]:
+    """What a richer basis changes in converged runs at the peak."""
+    changes = {}
+    for casing, law in LAWS.items():
+        rich, richer = (exact(rubs_on(n, law)[-1], CONVERGED) for n in (RICH, RICHER))
+        changes[casing] = rounded(error(rich, richer), 2)
+    return changes
+
+
 def cheapest(points: Sequence[Point]) -> list[list[str]]:
     """CPU time of the cheapest setting within each level, ms, and that of others over it."""
     rows = []
     for casing, level in product(LAWS, LEVELS):
-        within = [of for of in points if of.casing == casing and of.error <= level]
-        own = min(of.cpu for of in within if of.method == OWN)
-        others = (
-            min((of for of in within if of.method == method), key=lambda of: of.cpu, default=None)
-            for method in OTHERS
+        own, massless, central = (
+            within(points, casing, method, level) for method in (OWN, MASSLESS, CENTRAL)
         )
-        rows.append(
-            [casing, f"{100 * level:g} %", f"{1e3 * own:.0f}", *(over(of, own) for of in others)]
+        alone = (
+            over(*(within(points, casing, method, level, [k]) for method in (MASSLESS, OWN)), [k])
+            for k in EVERY
         )
+        first = f"{rounded(1e3 * own.at(EVERY), 1):g} ({own.modes})"
+        modes = f" ({massless.modes})" if massless else ""
+        cells = [over(massless, own) + modes, ", ".join(alone), over(central, own)]
+        rows.append([casing, f"{100 * level:g} %", first, *cells])
     return rows
 
 
-def over(of: Point | None, own: float) -> str:
-    """Cell of the table: CPU time over ``own``, with the modes that move; - where not reached."""
-    if of is None:
-        return "-"
-    return f"{of.cpu / own:.2g}" + (f" ({of.modes} modes)" if of.modes else "")
+def within(
+    points: Sequence[Point], casing: str, method: str, level: float, at: Sequence[int] = EVERY
+) -> Point | None:
+    """The cheapest setting of a method whose errors ``at`` some speeds are no larger."""
+    enough = (
+        of for of in points if of[:2] == (casing, method) and all(of.errors[k] <= level for k in at)
+    )
+    return min(enough, key=lambda of: of.at(at), default=None)
+
+
+def over(of: Point | None, other: Point, at: Sequence[int] = EVERY) -> str:
+    """Cell of the table: CPU time over the other's; - where not reached."""
+    return "-" if of is None else f"{rounded(of.at(at) / other.at(at), 1):g}"
 
 
 @style.styled
@@ -154,7 +185,7 @@ def picture(points: Sequence[Point]) -> Figure:
         for tried in METHODS:
             own = [of for of in points if of[:3] == (casing, tried.method, tried.modes)]
             if own and tried.line:
-                x, y = zip(*((1e3 * of.cpu, 100 * of.error) for of in own), strict=True)
+                x, y = zip(*((1e3 * sum(of.cpu), 100 * max(of.errors)) for of in own), strict=True)
                 axes.plot(x, y, tried.line, color=tried.colour, label=tried.name)
         axes.set(xscale="log", yscale="log", xlabel="CPU time of three runs (ms)")
         axes.set_title(casing, loc="right")
