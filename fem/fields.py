@@ -55,13 +55,39 @@ def stress(solid: Solid, u: NDArray[np.float64], prestress: str) -> Stress:
     C : eps, which superpose. The vibration is assumed to be small: its quadratic terms in Eq. (e)
     are not in K(Omega).
     """
-    strain, sigma = _strain_and_stress(solid, solid.field(u), prestress)
+    tensors = _strain_and_stress(solid, solid.field(u), prestress)
+    strain, sigma = (_expression(solid, of) for of in tensors)
     of_cells = _at_nodes_of_cells(solid, sigma)
     return Stress(
         strain=_averaged(solid, _at_nodes_of_cells(solid, strain)),
         stress=_averaged(solid, of_cells),
         of_cells=_largest(solid, von_mises(of_cells)),
     )
+
+
+def rates(
+    solid: Solid, u: NDArray[np.float64], along: NDArray[np.float64], prestress: str
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Derivatives of strain and stress about displacements ``u`` (free DoFs), m.
+
+    Parameters
+    ----------
+    along : (k, free DoFs), displacements in whose directions the derivatives are taken
+
+    Returns
+    -------
+    strain, stress : (k, nodes, 6), 1 and Pa per unit of each, in the order of ``TENSOR``, averaged
+        at nodes as in ``Stress``
+    """
+    at, v = solid.field(u), fem.Function(solid.V)
+    tensors = [ufl.derivative(of, at, v) for of in _strain_and_stress(solid, at, prestress)]
+    expressions, found = [_expression(solid, of) for of in tensors], []
+    for direction in along:
+        v.x.array[solid.free] = direction
+        fields = (_averaged(solid, _at_nodes_of_cells(solid, of)) for of in expressions)
+        found.append([of[:, *TENSOR] for of in fields])
+    strain, sigma = np.array(found).swapaxes(0, 1)
+    return strain, sigma
 
 
 def von_mises(sigma: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -81,10 +107,14 @@ def _strain_and_stress(
     return E, F * solid.stress(E) * F.T / ufl.det(F)
 
 
-def _at_nodes_of_cells(solid: Solid, tensor: ufl.core.expr.Expr) -> NDArray[np.float64]:
-    """``tensor`` in every cell at its own nodes (cells, 10, 3, 3)."""
+def _expression(solid: Solid, tensor: ufl.core.expr.Expr) -> fem.Expression:
+    """``tensor`` at the nodes of a cell, compiled."""
+    return fem.Expression(tensor, solid.V.element.interpolation_points)
+
+
+def _at_nodes_of_cells(solid: Solid, expression: fem.Expression) -> NDArray[np.float64]:
+    """Values of a tensor in every cell at its own nodes (cells, 10, 3, 3)."""
     cells = np.arange(len(solid.V.dofmap.list), dtype=np.int32)
-    expression = fem.Expression(tensor, solid.V.element.interpolation_points)
     return expression.eval(solid.mesh, cells).reshape(len(cells), -1, 3, 3)
 
 

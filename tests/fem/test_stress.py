@@ -5,7 +5,7 @@ import pytest
 from scipy.sparse.linalg import splu
 from scipy.spatial.transform import Rotation
 
-from fem.fields import stress, von_mises
+from fem.fields import TENSOR, rates, stress, von_mises
 from fem.prestress import linear_states
 from geometry.blade import Material
 from rom.reconstruct import Basis
@@ -160,3 +160,22 @@ def test_reduced_model_gives_the_full_models_stress_under_a_tip_load(
     np.testing.assert_allclose(reduced, full, rtol=0, atol=6e-5 * abs(full).max())
     for of_full, of_reduced in pairs:
         assert abs(of_reduced - of_full).max() < 1.5e-3 * pairs[0][0].max()
+
+
+@pytest.mark.parametrize("kind", ["nonlinear", "linear"])
+def test_rates_are_the_derivatives_of_strain_and_stress(free_box, kind):
+    """Central differences about a large deflection: of second order in the step."""
+    rng = np.random.default_rng(3)
+    u, v = (1e-2 * rng.standard_normal(len(free_box.free)) for _ in range(2))
+    found = rates(free_box, u, np.array([v, -2 * v]), kind)
+
+    def error(h):
+        ends = [stress(free_box, u + sign * h * v, kind) for sign in (1, -1)]
+        of = [(getattr(ends[0], n) - getattr(ends[1], n)) / (2 * h) for n in ("strain", "stress")]
+        pairs = zip(found, of, strict=True)
+        return [abs(a[0] - b[:, *TENSOR]).max() / abs(a[0]).max() for a, b in pairs]
+
+    for coarse, fine in zip(error(1e-2), error(1e-3), strict=True):
+        assert fine < max(0.011 * coarse, 1e-11)
+    for of in found:
+        np.testing.assert_allclose(of[1], -2 * of[0], atol=1e-12 * abs(of[0]).max())
