@@ -173,33 +173,53 @@ class Fields:
     def save(self, path: str | Path, numbers: Mapping[str, float]) -> None:
         """Write VTK XML, ``.vtu``, with ``numbers`` of it by name: speed, time.
 
-        It is made in memory: where a disk is full VTK crashes.
-
         Raises
         ------
         geometry.project.errors.WriteError
             When it cannot be written.
         """
-        grid = pv.UnstructuredGrid({pv.CellType.QUADRATIC_TETRA: self.cells}, self.points)
-        grid.point_data.update(
-            {
-                "static displacement (m)": self.static,
-                "vibration (m)": self.vibration,
-                "displacement (m)": self.static + self.vibration,
-                "strain": self.total.strain[:, *TENSOR],
-                "stress (Pa)": self.total.stress[:, *TENSOR],
-                "von Mises (Pa)": self.total.von_mises,
-                "von Mises of prestress (Pa)": self.prestress.von_mises,
-            }
-        )
-        for name, value in numbers.items():
-            grid.field_data[name] = [value]
-        writer = vtkXMLUnstructuredGridWriter()
-        writer.SetInputData(grid)
-        writer.SetDataModeToBinary()
-        writer.WriteToOutputStringOn()
-        writer.Write()
-        write_whole(writer.GetOutputString(), path)
+        data = {
+            "static displacement (m)": self.static,
+            "vibration (m)": self.vibration,
+            "displacement (m)": self.static + self.vibration,
+            "strain": self.total.strain[:, *TENSOR],
+            "stress (Pa)": self.total.stress[:, *TENSOR],
+            "von Mises (Pa)": self.total.von_mises,
+            "von Mises of prestress (Pa)": self.prestress.von_mises,
+        }
+        save_vtu(self.points, self.cells, data, path, numbers)
+
+
+def save_vtu(
+    points: NDArray[np.float64],
+    cells: NDArray[np.int64],
+    data: Mapping[str, NDArray[np.float64]],
+    path: str | Path,
+    numbers: Mapping[str, float] | None = None,
+) -> None:
+    """Write ``data`` of the nodes by name, and ``numbers`` of the whole, as VTK XML, ``.vtu``.
+
+    It is made in memory: where a disk is full VTK crashes.
+
+    Parameters
+    ----------
+    points, cells : (nodes, 3) and (cells, 10), as of ``Fields``
+
+    Raises
+    ------
+    geometry.project.errors.WriteError
+        When it cannot be written.
+    """
+    grid = pv.UnstructuredGrid({pv.CellType.QUADRATIC_TETRA: cells}, points)
+    grid.point_data.update(data)
+    for name, value in (numbers or {}).items():
+        grid.field_data[name] = [value]
+    writer = vtkXMLUnstructuredGridWriter()
+    writer.SetInputData(grid)
+    writer.SetDataModeToBinary()
+    writer.WriteToOutputStringOn()
+    writer.Write()
+    write_whole(writer.GetOutputString(), path)
 
 
 def fields(
@@ -230,16 +250,22 @@ def on_solid(
     solid: Solid, static: NDArray[np.float64], vibration: NDArray[np.float64], prestress: str
 ) -> Fields:
     """Fields from displacements (free DoFs) in the order of ``solid``, m."""
-    cells, _, points = vtk_mesh(solid.V)
+    cells, points = grid_of(solid)
     return Fields(
         points=points,
-        cells=cells.reshape(-1, 11)[:, 1:],
+        cells=cells,
         static=solid.field(static).x.array.reshape(-1, 3),
         vibration=solid.field(vibration).x.array.reshape(-1, 3),
         total=stress(solid, static + vibration, prestress),
         prestress=stress(solid, static, prestress),
         settled=away(solid),
     )
+
+
+def grid_of(solid: Solid) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    """Cells (cells, 10), ten-node tetrahedra in VTK's order, and points (nodes, 3), m."""
+    cells, _, points = vtk_mesh(solid.V)
+    return cells.reshape(-1, 11)[:, 1:], points
 
 
 def away(

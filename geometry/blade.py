@@ -280,6 +280,31 @@ class Margins(Settings):
     )
 
 
+MPa = Annotated[float, Field(gt=0, le=1e4)]
+
+
+class Fatigue(Settings):
+    """Strength of the material under stresses that alternate about a mean."""
+
+    endurance_MPa: MPa = Field(
+        description="Alternating stress that the material endures at zero mean stress (MPa)"
+    )
+    yield_MPa: MPa = Field(description="Yield stress (MPa)")
+    ultimate_MPa: MPa = Field(description="Ultimate tensile strength (MPa)")
+    line: Literal["goodman", "gerber", "soderberg"] = Field(
+        default="goodman", description="How a tensile mean stress lowers the endurance"
+    )
+
+    @checked
+    def _in_order(self) -> None:
+        for low, high in (("endurance_MPa", "yield_MPa"), ("yield_MPa", "ultimate_MPa")):
+            value, least = getattr(self, high), getattr(self, low)
+            if value < least:
+                raise SettingsError(
+                    f"below {low} = {least:g}", key=high, value=value, allowed={"ge": least}
+                )
+
+
 TOP_SPEEDS = ("max_speed_rad_s", "max_speed_rpm")
 SOURCES = ("sections", "section_table", "cad", "mesh_file")
 
@@ -297,6 +322,9 @@ class Blade(SettingsFile):
     mesh_file: MeshFile | None = Field(default=None, description="Geometry from a mesh")
     mesh: MeshSize | None = Field(default=None, description="Mesh; required without mesh_file")
     material: Material = Field(description="Material")
+    fatigue: Fatigue | None = Field(
+        default=None, description="Strength against which the stresses of a rub are compared"
+    )
     interface: Interface = Field(default=Interface(), description="Interface with the casing")
     max_speed_rad_s: Annotated[float, Field(gt=0)] | None = Field(
         default=None, description="Omega_m, the highest speed of the reduced model (rad/s)"

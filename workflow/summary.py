@@ -45,9 +45,12 @@ COLUMNS = (  # of the numbers of ``sweeps.peak_results``
     Column("force", "N", 1.0, "force N"),
     Column("force_peak", "N", 1.0, "peak force N"),
     Column("torque", "N m", 1.0, "torque N m"),
-    Column("stress", "MPa", 1e-6, "stress MPa"),
+    Column("mean_stress", "MPa", 1e-6, "mean stress MPa"),
+    Column("alternating", "MPa", 1e-6, "alternating MPa"),
+    Column("margin", "1", 1.0, "margin"),
 )
-LOADS = {"opening", "force", "force_peak", "torque", "stress"}  # numbers of the second table
+LOADS = {"opening", "force", "force_peak", "torque"}  # numbers of the second table
+STRESS = {"mean_stress", "alternating", "margin"}  # numbers of ``stress.json``, there too
 AT_END = ("at the end", "τ rev.", "mm³/rev.")  # heads
 MEANING = {  # of the columns
     "amplitude": "of the tip's radial displacement at ξ = 1/16, along the engine order EO, over "
@@ -58,9 +61,11 @@ MEANING = {  # of the columns
     "force": "mean normal force on the chord over the revolutions; peak force: the largest on an "
     "eighth of the chord",
     "torque": "mean of the revolutions, against the rotation",
-    "stress": "largest von Mises stress away from clamp and contact, of a recorded state, ± the "
-    "difference of single elements from their mean at nodes; otherwise of the last revolution, as "
-    "the page of the scene shows it",
+    "mean stress, alternating": "of the largest change of stress between two instants of the last "
+    "revolution, at the node away from clamp and contact with the least margin (without `fatigue` "
+    "of the blade with the largest alternating stress); not of a growing motion",
+    "margin": "factor by which the alternating stress may grow at that mean stress "
+    "(strength: `fatigue` of the blade)",
     "±": "root of the sum of squares of the changes by a twin (gaps changed by 1e-10), by models "
     "with frequencies off by their known errors, by a model with half the patches, and by a run "
     "with twice the steps, rods and strips (the last two not with central differences, with "
@@ -96,16 +101,14 @@ COURSE = {  # of ``dataset.course``: unit and its scale from SI
 }
 
 type Row = dict[str, Any]
-type Stress = dict[float, tuple[float, float | None]]  # by speed over f1(0): largest, its error, Pa
 
 
 def numbers(
     files: Any, operating: Mapping[str, Mapping[str, Any]], others: Sequence[str] = ()
 ) -> dict[str, Any]:
-    """The summary of ``files.answers``, one for each scene, with their stresses.
+    """The summary of ``files.answers``, one for each scene, with their ``files.stress``.
 
-    These are of ``files.stress``, ``peak.json``, and of ``files.pages``, ``stress.json``; margins
-    are of ``files.roms``, the model of each scene.
+    Margins of the speeds are of ``files.roms``, the model of each scene.
 
     ``operating``: as of ``simulate.sweeps.peak.critical``, by blade; ``others``: scenes that have
     results and are left out, for they may be of other settings or code.
@@ -113,14 +116,11 @@ def numbers(
     from rom.model import Rom  # slow imports, which Snakemake does without
     from simulate.sweeps.peak import critical
 
-    stress, pages = (
-        {of["scene"]: of for of in map(read_json, getattr(files, name, []))}
-        for name in ("stress", "pages")
-    )
+    stress = {of["scene"]: of for of in map(read_json, getattr(files, "stress", []))}
     scenes = [
         _scene(
             of,
-            {**_of_page(pages.get(of["scene"])), **_of_state(stress.get(of["scene"]))},
+            stress.get(of["scene"]),
             (lines := operating.get(of["blade"], {})) and critical(Rom.load(rom), lines),
         )
         for of, rom in zip(map(read_json, files.answers), files.roms, strict=True)
@@ -128,9 +128,12 @@ def numbers(
     return {"scenes": scenes, "others": list(others)}
 
 
-def _scene(of: Mapping[str, Any], stress: Stress, found: Mapping[str, Any]) -> dict[str, Any]:
-    """One scene; ``found``: subject of its margins."""
-    rows = [_row(of, answer, stress) for answer in of["peaks"]]
+def _scene(
+    of: Mapping[str, Any], stress: Mapping[str, Any] | None, found: Mapping[str, Any]
+) -> dict[str, Any]:
+    """One scene; ``stress``: as of ``stress.json``; ``found``: subject of its margins."""
+    known = {_key(row["speed_over_f1"]): row for row in stress["speeds"]} if stress else {}
+    rows = [_row(of, answer, known.get(_key(answer["Omega_c"]), {})) for answer in of["peaks"]]
     peaks = [
         row | {"what": f"rub peak ({row['course']['trend']})" if moves(row) else "rub peak"}
         for row in rows
@@ -141,20 +144,20 @@ def _scene(of: Mapping[str, Any], stress: Stress, found: Mapping[str, Any]) -> d
         "answers_s": sum(answer["seconds"] for answer in of["peaks"]),
         "runs": sum(answer["runs"] for answer in of["peaks"]),
         "rows": rows,
+        "stresses": [*known.values()],
         "operating": found,
         "margins": margins.rows(found, peaks, _of_model(of), None in of["doubt"].values()),
     }
 
 
-def _row(of: Mapping[str, Any], answer: Mapping[str, Any], stress: Stress) -> Row:
+def _row(of: Mapping[str, Any], answer: Mapping[str, Any], stress: Mapping[str, Any]) -> Row:
     """One peak: speeds in rpm and over f1(0), all else in SI; None where it is not known.
 
     ``over_gap``: amplitude and wear over the gap, as figures have them.
     """
     f1, k, over_f1 = of["f1_Hz"], answer["k"], answer["Omega_c"]
     values, errors = dict(answer["numbers"]), dict(answer["errors"])
-    if (found := stress.get(_key(over_f1))) is not None:
-        values["stress"], errors["stress"] = found
+    values |= {name: stress[name] for name in STRESS & stress.keys()}
     return {
         "k": k,
         "rpm": RPM_PER_HZ * f1 * over_f1,
@@ -208,24 +211,6 @@ def _of_model(of: Mapping[str, Any]) -> float:
     return (of["doubt"]["basis"] or 0.0) + (of["doubt"]["mesh"] or 0.0)
 
 
-def _of_state(state: Mapping[str, Any] | None) -> Stress:
-    """Stress of a recorded state, ``peak.json``."""
-    settled = state and state["von_mises"]["settled"]
-    if not settled:
-        return {}
-    largest = settled["largest_Pa"]
-    apart = abs(settled["largest_of_cells_Pa"] - largest)
-    return {_key(state["speed_over_f1"]): (largest, apart)}
-
-
-def _of_page(page: Mapping[str, Any] | None) -> Stress:
-    """Stress at all speeds of a page, ``stress.json``; of its error nothing is known."""
-    if not page:
-        return {}
-    at_all = zip(page["speed_over_f1"], page["largest_Pa"], strict=False)
-    return {_key(at): (largest, None) for at, largest in at_all if largest and isfinite(largest)}
-
-
 def _key(over_f1: float) -> float:
     """A speed of a sweep, as files hold it."""
     return round(over_f1, 9)
@@ -271,13 +256,13 @@ def terminal(summary: Mapping[str, Any]) -> str:
 
 
 def panel(
-    answers: Mapping[str, Any], found: Mapping[str, Any], stress: Mapping[str, Any]
+    answers: Mapping[str, Any], found: Mapping[str, Any], stress: Mapping[str, Any] | None
 ) -> dict[str, Any]:
     """The same of one scene's ``answers`` for its page, with the speeds of the rows over f1(0).
 
     ``found``: as of ``simulate.sweeps.peak.critical``; ``stress``: as of ``stress.json``.
     """
-    scene = _scene(answers, _of_page(stress), found)
+    scene = _scene(answers, stress, found)
     tables = [*shown(scene), (margins.HEADS, margins.table(scene["margins"]))]
     return {
         "about": about(scene),
@@ -304,7 +289,8 @@ def columns(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
 def shown(scene: Mapping[str, Any]) -> list[tuple[list[str], list[list[str]]]]:
     """Heads and rows of a scene's tables: motion and wear, then loads; without empty columns."""
     kept, rows = known(row["values"] for row in scene["rows"]), scene["rows"]
-    motion, loads = ([of for of in kept if (of.name in LOADS) is among] for among in (False, True))
+    second = LOADS | STRESS
+    motion, loads = ([of for of in kept if (of.name in second) is among] for among in (False, True))
     of_motion = [
         [_order(row), margins.speed(row), *_cells(row, motion), *_at_end(row), row["word"]]
         for row in rows
@@ -349,7 +335,7 @@ def _cell(row: Row, column: Column) -> str:
 
 def _in_part(row: Row, name: str) -> bool:
     """Whether parts of the uncertainty of a number are not known, others are."""
-    return name != "stress" and any(
+    return name not in STRESS and any(
         row["unknown"][of] for of in (ALL, name) if of in row["unknown"]
     )
 
@@ -382,12 +368,13 @@ def about(scene: Mapping[str, Any]) -> str:
 
 def notes(scene: Mapping[str, Any]) -> list[str]:
     """Crossings, ends of the sweep, operating lines, unknown parts, cost of uncertainties."""
-    lines = [*at_speeds(scene), *_of_lines(scene)]
+    lines = [*at_speeds(scene), *_of_lines(scene), *_worst(scene)]
     numbers = {name for row in scene["rows"] for name in row["values"]}
     missing = {part for row in scene["rows"] for parts in row["unknown"].values() for part in parts}
     told = [PARTS[part] for part in PARTS if part in missing]
-    if "stress" not in numbers:
-        told.append("stress (explore, record.states_rounds)")
+    without = [f"{row['rpm']:.0f}" for row in scene["rows"] if "alternating" not in row["values"]]
+    if without:
+        told.append(f"stress at {', '.join(without)} rpm, of growing or unrecorded motions")
     if "force" in numbers and scene["no_torque"]:
         told.append(f"torque ({scene['no_torque']})")
     if told:
@@ -404,6 +391,20 @@ def _of_lines(scene: Mapping[str, Any]) -> list[str]:
     swept = [RPM_PER_HZ * scene["f1_Hz"] * end["over_f1"] for end in scene["ends"]]
     lines = [margins.nearest(found, scene["margins"], name) for name in found.get("lines", ())]
     return [*chain(*lines), margins.covered(found, swept)] if found else []
+
+
+def _worst(scene: Mapping[str, Any]) -> list[str]:
+    """Speed and node of the least margin, or of the largest alternating stress, of all speeds."""
+    known = [row for row in scene["stresses"] if "alternating" in row]
+    if not known:
+        return []
+    row = min(known, key=lambda row: row.get("margin", -row["alternating"]))
+    rpm = RPM_PER_HZ * scene["f1_Hz"] * row["speed_over_f1"]
+    told = [f"{of.head} {of.shown(row)}" for of in COLUMNS if of.name in STRESS & row.keys()]
+    place = ", ".join(f"{1e3 * x:.1f}" for x in row["at_m"])
+    return [
+        f"Worst stress of all speeds, {rpm:.0f} rpm at x, y, z = {place} mm: {', '.join(told)}."
+    ]
 
 
 def at_speeds(scene: Mapping[str, Any]) -> list[str]:

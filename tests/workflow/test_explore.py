@@ -20,10 +20,11 @@ from simulate.sweeps.over_speeds import at_speeds
 from simulate.sweeps.peak import crossing
 from simulate.sweeps.peak_results import CROSSED
 from workflow.explore import page as pack
-from workflow.explore.blade import largest_stress, motion, moving
+from workflow.explore.blade import moving
 from workflow.explore.page import html
 from workflow.explore.results import ANGLES, ORDERS, around, arrays, facts, log10, told
 from workflow.figures.response import Response
+from workflow.stress import motion
 
 SPEEDS = [0.2, 0.3, 0.34, 0.36, 0.38]  # over f1(0)
 PEAK = {"k": 6, "index": 3, "crossing": 0.32, "amplitude": 0.5, "at_end": False}  # five have none
@@ -112,15 +113,16 @@ def moving_along(amplitudes, status="ok"):
 def test_shapes_hold_the_motion_they_are_made_of():
     """Two patterns in four DoFs: two shapes miss nothing, and give every displacement back."""
     rng = np.random.default_rng(2)
-    T, patterns = rng.normal(size=(9, 4)), rng.normal(size=(2, 4))
+    root, patterns = rng.normal(size=(4, 4)), rng.normal(size=(2, 4))
     states = rng.normal(size=(3, 6, 2)) @ patterns * np.array([1.0, 1e-3, 10.0])[:, None, None]
     states[1, 2:4] = np.nan  # recorded at other speeds only
-    found = motion(moving_along(states), T, shapes=2)
+    G = root @ root.T
+    found = motion(moving_along(states), G, shapes=2)
     assert found.missed.max() < 1e-12
-    known = ~np.isnan(states)
-    shown = np.where(known, found.a @ found.shapes.T @ T.T @ np.linalg.pinv(T.T), np.nan)
-    np.testing.assert_allclose(shown, states, atol=1e-12)
-    assert np.isnan(found.a[1, 2:4]).all()
+    np.testing.assert_allclose(found.shapes.T @ G @ found.shapes, np.eye(2), atol=1e-12)
+    shown = np.where(np.isnan(states), np.nan, found.a @ found.shapes.T)
+    np.testing.assert_allclose(shown, states, atol=1e-11)
+    assert np.isnan(found.a[1, 2:4]).all() and len(found.at(1)) == 4
 
 
 def test_what_shapes_miss_is_told_by_speed():
@@ -195,7 +197,6 @@ def test_motion_and_stress_are_those_of_the_whole_blade(
     """Against the fields of one recorded state: displacement to 1 %, von Mises stress to 2 %."""
     told, of = moved
     assert max(told["missed"]) < 0.03
-    assert len(told["stress"]) == len(SPEEDS) and min(told["stress"]) > 1e7
     speed = 3
     run = response.sweep.isel(speed_over_f1=speed)
     time = int(np.flatnonzero(~np.isnan(run["motion"][:, 0]))[-5])
@@ -212,18 +213,6 @@ def test_motion_and_stress_are_those_of_the_whole_blade(
     largest = 1e-6 * exact.total.von_mises.max()
     np.testing.assert_allclose(stress, 1e-6 * exact.total.von_mises[near], atol=0.02 * largest)
     assert abs(stress - 1e-6 * exact.prestress.von_mises[near]).max() > 0.02 * largest
-
-
-def test_the_largest_stress_is_that_of_all_nodes_and_times():
-    """Against every node at every time; nan times are left out."""
-    rng = np.random.default_rng(4)
-    static, of_shapes = rng.normal(size=(500, 6)), rng.normal(size=(5, 500, 6))
-    a = rng.normal(size=(40, 5))
-    a[7] = np.nan
-    sigma = (static + np.tensordot(a, of_shapes, 1))[..., FULL]
-    expected = np.nanmax(von_mises(sigma))
-    assert largest_stress(static, of_shapes, a) == pytest.approx(expected, rel=1e-12)
-    assert np.isnan(largest_stress(static, of_shapes, np.full((2, 5), np.nan)))
 
 
 @pytest.fixture

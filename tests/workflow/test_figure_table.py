@@ -20,6 +20,7 @@ def scene(blade="thin", design=None, gaps="running", count=9, touches=True, **re
         directions="r",
         design=design,
         clearance=Made(at=gaps),
+        until=None,
         speeds=Made(count=count),
         liner=Made(law=Made(touches=touches)),
         record=Made(**{"wear": False, "spectrum_rounds": 10, "states_rounds": 0} | record),
@@ -42,10 +43,10 @@ def figures_of(*configured):
         ROWS,
         scenes=SCENES,
         delivered={name: SCENES[name] for name in configured},
-        explored=["hard"],
+        stressed=["hard"],
         directions=lambda blade: "rt",
         operating={"thin": {"design": 9e3}, "given": {}, "reference": {}}.get,
-        blades=dict.fromkeys(["matrices", "mesh"], lambda name: name != "given"),
+        blades=dict.fromkeys(["matrices", "mesh", "fatigue"], lambda name: name != "given"),
     )
 
 
@@ -60,7 +61,7 @@ def test_a_row_draws_with_what_it_gives(name):
     wildcards = {"blade": "thin", "scene": "hard", "identified": "thin"}
     for pattern in row.files.values():
         for path in [pattern] if isinstance(pattern, str) else pattern:
-            path.format(**wildcards, directions="r", name=name, explored="hard")
+            path.format(**wildcards, directions="r", name=name, stressed="hard")
     assert f"{row.caption} {row.more}".format(**wildcards)
 
 
@@ -86,11 +87,14 @@ def test_a_figure_marks_the_operating_speeds_of_its_blade():
 @pytest.mark.parametrize(
     ("configured", "delivered"),
     [
-        (["soft"], ["campbell-thin", "modes-thin", "spectra-soft", "loads-thin"]),
+        (["soft"], ["campbell-thin", "modes-thin", "spectra-soft", "loads-thin", "haigh-soft"]),
         (["free"], ["spectra-free"]),
         (["drawn"], ["campbell-thin", "modes-thin", "design-drawn", "sensitivity-drawn"]),
         (["listed"], ["campbell-thin", "modes-thin", "design-listed"]),
-        (["paper-e1"], ["fig03", "fig09", "fig10a", "loads-reference", "fig11a"]),
+        (
+            ["paper-e1"],
+            ["fig03", "fig09", "fig10a", "loads-reference", "haigh-paper-e1", "fig11a"],
+        ),
         (
             ["paper-e1", "paper-e10"],
             [

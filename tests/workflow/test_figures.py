@@ -60,6 +60,7 @@ from workflow.figures import (
     fig04_footprint,
     fig05_laws,
     fig09_modes,
+    haigh,
     identification,
     loads,
     long_times,
@@ -273,6 +274,21 @@ def grid():
     return {"E": [1, 10, 100], "K": [0.45, 4.55], "orders": [4, 6], "cases": of_grid}
 
 
+STRESSES = (  # of three speeds, and the answers at the second; of the third the motion grows
+    {
+        "scene": "mine",
+        "blade": "thin",
+        "fatigue": {"endurance_MPa": 500.0, "yield_MPa": 900.0, "ultimate_MPa": 1000.0},
+        "speeds": [
+            {"speed_over_f1": 0.3, "mean_stress": 3e8, "alternating": 2e7, "margin": 17.5},
+            {"speed_over_f1": 0.35, "mean_stress": -4e7, "alternating": 3e7, "margin": 16.7},
+            {"speed_over_f1": 0.4, "trend": "growing"},
+        ],
+    },
+    {"peaks": [{"k": 4, "Omega_c": 0.35}, {"k": 5, "Omega_c": 0.4}]},
+)
+
+
 @pytest.fixture
 def two_loads():
     """Two scenes; of the second no volume is known, and torque at one speed."""
@@ -400,6 +416,7 @@ FIGURES = {
     "together": lambda get: identification.together({"prior": {"4.55": SHARES}}),
     "modes": lambda get: fig09_modes.draw(*get("modes")),
     "gap": lambda get: clearance.gap(get("rest")),
+    "haigh": lambda get: haigh.draw(*STRESSES),
     "loads": lambda get: loads.panels(get("two_loads"), F1, "mine"),
     "long times": lambda get: long_times.through_peak(
         *read(long_times, get("long_files"), "through_peak")
@@ -756,6 +773,18 @@ NUMBERS = {  # by figure and what is shown: the numbers that are drawn, and what
     ("loads", "opening of the gap"): (
         lambda drawn: scale_beside(drawn.axes[2], "worn depth"),
         0.01,
+    ),
+    ("haigh", "stresses of every speed that does not grow, MPa"): (
+        lambda drawn: drawn.axes[1].lines[0].get_xydata(),
+        [[300, 20], [-40, 30]],
+    ),
+    ("haigh", "the peak and its order"): (
+        lambda drawn: (drawn.axes[1].lines[1].get_xydata(), drawn.axes[1].texts[-1].get_text()),
+        ([[-40, 30]], "EO 4"),
+    ),
+    ("haigh", "endurance, and yield in compression"): (
+        lambda drawn: np.interp([-900, -450, -400, 0, 500], *drawn.axes[0].lines[0].get_data()),
+        [0, 450, 500, 500, 250],
     ),
     ("design", "amplitude and wear of the rows in µm, over what they change"): (
         lambda drawn: [axes.lines[0].get_xydata().T for axes in drawn.axes],

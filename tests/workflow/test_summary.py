@@ -56,9 +56,15 @@ OF = {
     "mu_crit": None,
     "peaks": [ANSWER],
 }
-STATE = {"settled": {"largest_Pa": 400e6, "largest_of_cells_Pa": 420e6, "at_m": [0, 0, 0]}}
-PAGE = {"scene": "mine", "speed_over_f1": [0.3, 0.35, 0.4], "largest_Pa": [9e7, 3e8, None]}
-STRESS = {"scene": "mine", "blade": "b", "speed_over_f1": 0.35, "von_mises": STATE}
+WORST = {"mean_stress": 3e8, "alternating": 2e7, "margin": 17.0, "at_m": [0.4, 0.01, -0.02]}
+STRESS = {
+    "scene": "mine",
+    "speeds": [
+        {"speed_over_f1": 0.3, "trend": "steady", **WORST, "alternating": 2.5e7, "margin": 12.5},
+        {"speed_over_f1": 0.35, "trend": "steady", **WORST},
+        {"speed_over_f1": 0.4, "trend": "growing"},
+    ],
+}
 
 
 def read_csv(found):
@@ -75,11 +81,10 @@ def cells(found):
 
 @pytest.fixture
 def summed(tmp_path):
-    """The summary of changed answers, of a recorded state and of a page if these are given."""
+    """The summary of changed answers, and of stresses if these are given."""
 
-    def summed(answer=None, stress=None, page=None, **of):
-        given = {"answers": OF | {"peaks": [ANSWER | (answer or {})]} | of}
-        given |= {"stress": stress, "pages": page}
+    def summed(answer=None, stress=None, **of):
+        given = {"answers": OF | {"peaks": [ANSWER | (answer or {})]} | of, "stress": stress}
         files = {name: [tmp_path / f"{name}.json"] for name, values in given.items() if values}
         for name, (file,) in files.items():
             write_json(given[name], file)
@@ -103,12 +108,13 @@ def test_a_peak_in_units_of_engines(summed):
         "amplitude +- (um)": 2,
         "worn_volume (mm3)": 200,
         "torque (N m)": 0.05,
-        "stress (MPa)": 400,
-        "stress +- (MPa)": 20,
+        "mean_stress (MPa)": 300,
+        "alternating (MPa)": 20,
+        "margin (1)": 17,
     }
     assert {name: float(row[name]) for name in expected} == pytest.approx(expected)
     assert (row["amplitude other (um)"], row["word"]) == ("", ONE_MOTION)
-    assert {"4200 ±9", "0.350", "40 ±5%", "400 ±5%"} <= {*cells(found)}
+    assert {"4200 ±9", "0.350", "40 ±5%", "300 (no ±)", "20 (no ±)", "17 (no ±)"} <= {*cells(found)}
     spaced = summed({"spacing": 0.027 - 3.5e-4})
     assert cells(spaced)[1] == "4200 ±324"  # no exponent
     ending = summed({"at_end": True})  # on the rise: a bound
@@ -129,12 +135,10 @@ def test_what_is_not_known_is_said(summed):
     numbers = {name: NUMBERS[name] for name in ("amplitude", "force")}
     found = summed({"numbers": numbers, "errors": {}}, doubt=doubt, no_torque="a reason")
     text = summary.terminal(found)
-    assert all(what in text for what in ("mesh", "record.states_rounds", "torque (a reason)"))
+    assert all(what in text for what in ("mesh", "stress at 4200 rpm, ", "torque (a reason)"))
     assert cells(found)[2] == "40 (no ±)" and "170 (no ±)" in cells(found)
     row = read_csv(found)
     assert row["torque (N m)"] == row["amplitude +- (um)"] == ""
-    elsewhere = summed(stress=STRESS | {"speed_over_f1": 0.36})
-    assert "stress" not in elsewhere["scenes"][0]["rows"][0]["values"]
     # central differences have no runs of other fineness; where nothing was tried, nothing is missed
     for parts, known in (({"twin": {"amplitude": 0.05}}, False), ({}, True)):
         (row,) = summed({"parts": parts})["scenes"][0]["rows"]
@@ -160,12 +164,25 @@ def test_scene_says_its_model_its_crossings_and_what_its_ends_show(summed):
     assert not any("rpm (" in note for note in summary.notes(foreign))
 
 
-def test_stress_is_that_of_the_page_where_no_state_was_recorded(summed):
-    row = read_csv(summed(page=PAGE))
-    assert (row["stress (MPa)"], row["stress +- (MPa)"]) == ("300", "")
-    assert "400 ±5%" in cells(summed(page=PAGE, stress=STRESS))
-    without = summed({"Omega_c": 0.4}, page=PAGE)  # no result at that speed
-    assert "stress" not in without["scenes"][0]["rows"][0]["values"]
+def test_of_a_growing_motion_no_stress_is_told(summed):
+    growing = summed({"Omega_c": 0.4}, stress=STRESS)
+    assert "alternating" not in growing["scenes"][0]["rows"][0]["values"]
+    assert "stress at 4800 rpm, of growing" in summary.terminal(growing)
+
+
+def test_the_worst_stress_of_all_speeds_is_told_with_its_node(summed):
+    """By margin; without strength by the alternating stress; nothing where none is known."""
+    line = (
+        "Worst stress of all speeds, 3600 rpm at x, y, z = 400.0, 10.0, -20.0 mm: mean stress MPa "
+        "300, alternating MPa 25"
+    )
+    text = summary.terminal(summed(stress=STRESS))
+    assert f"{line}, margin 12.5." in text and "stress at" not in text
+    rows = [{name: of for name, of in row.items() if name != "margin"} for row in STRESS["speeds"]]
+    found = summed(stress=STRESS | {"speeds": rows})
+    assert f"{line}." in summary.terminal(found)
+    assert "margin" not in found["scenes"][0]["rows"][0]["values"]
+    assert "Worst" not in summary.terminal(summed(stress=STRESS | {"speeds": rows[2:]}))
 
 
 def test_an_error_known_in_part_is_at_least_so_large(summed):
@@ -224,8 +241,8 @@ def test_a_run_without_a_result_has_its_status(summed):
 
 
 def test_the_panel_of_a_page_has_the_rows_of_the_summary(summed):
-    panel = summary.panel(OF, {}, PAGE)
-    shown = summary.shown(summed(page=PAGE)["scenes"][0])
+    panel = summary.panel(OF, {}, STRESS)
+    shown = summary.shown(summed(stress=STRESS)["scenes"][0])
     tables = [(of["heads"], of["rows"]) for of in panel["tables"]]
     assert (tables[:-1], panel["speeds"]) == (shown, [0.35])  # the last is that of the margins
     assert panel["tables"][-1]["rows"] == []

@@ -43,7 +43,7 @@ def draw(
     stress: Sequence[Mapping[str, Any]] = (),
     operating: Mapping[str, Any] = NO_LINES,
 ) -> Figure:
-    """Loads of scenes of one blade; ``answers`` of each, ``stress`` of those with a page."""
+    """Loads of scenes of one blade; ``answers`` of each, ``stress`` where it is known."""
     known = {of["scene"]: of for of in stress}
     pairs = zip(sweeps, answers, strict=True)
     loads = [loads_of(sweep, of, known.get(of["scene"])) for sweep, of in pairs]
@@ -53,7 +53,7 @@ def draw(
 def loads_of(
     response: Response, told: Mapping[str, Any], stress: Mapping[str, Any] | None
 ) -> Loads:
-    """Loads of a sweep; ``told``: its answers; ``stress``: the largest in the last revolution."""
+    """Loads of a sweep; ``told``: its answers; ``stress``: as of ``stress.json``."""
     sweep, scene, rom = response.sweep, response.scene, response.rom
     width, radius = sweep["width"].values, rom.line(sweep["xi"].values)[:, 0]
     lines = {}
@@ -66,7 +66,9 @@ def loads_of(
     if "wear" in sweep:
         lines["worn_volume"] = worn_volume(sweep["wear"].values, width, radius)
     if stress:
-        lines["stress"] = np.array(stress["largest_Pa"], float)
+        lines["alternating"] = np.array(
+            [row.get("alternating", np.nan) for row in stress["speeds"]]
+        )
     known = {name: np.where(response.has_result, of, np.nan) for name, of in lines.items()}
     opening = float(mean_opening(np.ones((len(width), 1)), width, radius))
     volume = float(worn_volume(np.ones((len(width), 1)), width, radius))
@@ -84,7 +86,7 @@ PANELS = (  # number, label, scale
     ("force", "normal\nforce (N)", 1.0),
     ("torque", "torque\n(N m)", 1.0),
     ("worn_volume", "worn\nvolume (mm³)", CUBIC_MM),
-    ("stress", "largest\nstress (MPa)", MPA),
+    ("alternating", "alternating\nstress (MPa)", MPA),
 )
 
 

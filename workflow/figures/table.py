@@ -13,11 +13,12 @@ from simulate.scene import Scene
 DELIVERED = "delivered"  # the part of the table that a plain run delivers
 OF_SCENE = {  # demands on the value of a key of a scene
     "set": bool,
+    "none": lambda value: value is None,
     "rest": lambda at: at == "rest",
     "a YAML file": lambda path: path is not None and path.endswith((".yaml", ".yml")),
 }
 
-type Need = Literal["set", "rest", "a YAML file", "matrices", "mesh"]
+type Need = Literal["set", "none", "rest", "a YAML file", "matrices", "mesh", "fatigue"]
 
 
 class Row(Settings):
@@ -78,7 +79,7 @@ class Figures(NamedTuple):
     rows: Mapping[str, Row]  # by name
     scenes: Mapping[str, Scene]  # all
     delivered: Mapping[str, Scene]  # those of workflow/config.yaml
-    explored: Collection[str]  # scenes with a page to explore
+    stressed: Collection[str]  # scenes whose stresses are known
     directions: Callable[[str], str]  # of the interface that the scenes of a blade need
     operating: Callable[[str], Mapping[str, float]]  # speeds of a blade by name, rpm
     blades: Mapping[str, Callable[[str], bool]]  # whether a blade meets a need of a figure
@@ -108,11 +109,11 @@ class Figures(NamedTuple):
         for fault in self._faults(row, of):
             raise fault
         known = {**wildcards, **of._asdict(), "name": name.format_map(wildcards)}
-        pages = [scene for scene in of.scenes if scene in self.explored]
+        stressed = [scene for scene in of.scenes if scene in self.stressed]
 
         def paths(pattern: str) -> list[str]:
-            each = pages if "{explored}" in pattern else of.scenes or [""]
-            filled = (pattern.format_map(known | {"scene": s, "explored": s}) for s in each)
+            each = stressed if "{stressed}" in pattern else of.scenes or [""]
+            filled = (pattern.format_map(known | {"scene": s, "stressed": s}) for s in each)
             return [*dict.fromkeys(filled)]  # one where it does not depend on the scene
 
         return {

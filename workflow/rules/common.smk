@@ -173,6 +173,11 @@ def one_of(names):
     return "|".join(map(re.escape, names)) or "(?!)"
 
 
+def keeps_motion(scene):
+    """Whether the sweep of a scene keeps the motion of which pages and stresses are made."""
+    return not (scene.design or scene.until) and scene.blade in MESHED
+
+
 BLADE_FILES = read_or_fail(yaml_file.names, "workflow/blades")
 FOREIGN = blades_with(GivenModel.key)  # of a reduced model made elsewhere
 WITH_MATRICES = blades_with(GivenMatrices.key)  # made elsewhere
@@ -185,6 +190,7 @@ EXPLORED = [name for name in CONFIG.explore if name in CONFIG.scenes]
 # Configured scenes and their blades are checked at once and delivered; others when they are used.
 DELIVERED = read_all(scene_settings, dict.fromkeys(CONFIG.scenes))
 SWEEPS = {name: scene for name, scene in DELIVERED.items() if not scene.design}
+STRESSED = [name for name, scene in SWEEPS.items() if keeps_motion(scene)]
 BLADES = read_all(blade_settings, sorted({scene.blade for scene in DELIVERED.values()}))
 
 
@@ -297,12 +303,11 @@ class Told(dict):
 def settings_told(wildcards):
     """All settings of the scene.
 
-    Its sweep keeps the motion that a page to explore shows, with or without a page: one that is
-    asked for later needs no second sweep.
+    Its sweep keeps the motion for its stresses and a page to explore, with or without a page: one
+    that is asked for later needs no second sweep.
     """
     scene = SCENES[wildcards.scene]
-    without_page = scene.design or scene.clearance.at_rest or scene.blade not in MESHED
-    if not (without_page or scene.until or scene.record.motion):
+    if keeps_motion(scene) and not scene.record.motion:
         scene = scene.but(record={"motion": SHOWN_MODE})
     return Told(scene.model_dump(mode="json"))
 
@@ -380,6 +385,22 @@ def sweep_with_states(wildcards):
         raise WorkflowError(
             f"{scene_file(wildcards.scene)}: record.states_rounds: missing; peak.vtu shows one of the "
             f"states: `record: {{states_rounds: 2}}` keeps them"
+        )
+    return f"results/{wildcards.blade}/{wildcards.scene}/sweep.nc"
+
+
+def stress_of_scene(wildcards):
+    """The stresses of a scene that keeps its motion."""
+    path = f"results/{wildcards.blade}/{wildcards.scene}/stress.json"
+    return path if keeps_motion(SCENES[wildcards.scene]) else []
+
+
+def sweep_with_motion(wildcards):
+    """The sweep of a scene of whose motion the stresses are known."""
+    if not keeps_motion(SCENES[wildcards.scene]):
+        raise WorkflowError(
+            f"{scene_file(wildcards.scene)}: without the motion of a meshed blade, of which stresses are "
+            f"made: take out until or design, or another blade"
         )
     return f"results/{wildcards.blade}/{wildcards.scene}/sweep.nc"
 

@@ -10,6 +10,7 @@ rule explore:
         basis=basis_of_scene,
         sweep="results/{blade}/{scene}/sweep.nc",
         answers="results/{blade}/{scene}/answers.json",
+        stress=stress_of_scene,
     output:
         html=report(
             "results/{blade}/{scene}/explore.html",
@@ -20,7 +21,6 @@ rule explore:
                 "shows": "every speed: spectrum, wear, history, the blade in motion",
             },
         ),
-        stress="results/{blade}/{scene}/stress.json",
     log:
         "results/{blade}/{scene}/logs/explore.log",
     benchmark:

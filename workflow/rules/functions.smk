@@ -9,12 +9,13 @@ FIGURES = table.Figures(
     read_or_fail(table.read, own_files(["workflow/figures/figures.yaml"])[0]),
     scenes=SCENES,
     delivered=DELIVERED,
-    explored=EXPLORED,
+    stressed=STRESSED,
     directions=directions_of,
     operating=operating_of,
     blades={
         "matrices": lambda blade: blade not in FOREIGN,
         "mesh": lambda blade: blade in MESHED,
+        "fatigue": lambda blade: blade in MESHED and blade_settings(blade).fatigue is not None,
     },
 )
 PAPER_BLADE = "reference"

@@ -25,12 +25,7 @@ rule summary:
     input:
         answers=of_scenes("results/{blade}/{scene}/answers.json"),
         roms=[f"results/{scene.blade}/rom-{scene.directions}.nc" for scene in SWEEPS.values()],
-        stress=[
-            f"results/{scene.blade}/{name}/peak.json"
-            for name, scene in SWEEPS.items()
-            if scene.record.states_rounds
-        ],
-        pages=[f"results/{SCENES[name].blade}/{name}/stress.json" for name in EXPLORED],
+        stress=[f"results/{SCENES[name].blade}/{name}/stress.json" for name in STRESSED],
         code=code_of("workflow.summary"),
     output:
         json="results/summary.json",

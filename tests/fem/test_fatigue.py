@@ -1,0 +1,92 @@
+"""Cycles and margins in closed form, and against all pairs of instants."""
+
+import numpy as np
+import pytest
+from scipy.spatial.distance import pdist
+from scipy.spatial.transform import Rotation
+
+from fem.fatigue import FIVE, allowed, largest_cycle, margin, von_mises
+from fem.fields import FULL, TENSOR, von_mises as of_tensor
+from geometry.blade import Fatigue
+from geometry.project import SettingsError, check_settings
+
+PHASE = 2 * np.pi * np.arange(48) / 48
+XX, YY, XY = np.eye(6)[[0, 1, 3]]
+STRENGTH = {"endurance_MPa": 500.0, "yield_MPa": 900.0, "ultimate_MPa": 1000.0}
+
+
+def of(line="goodman"):
+    return Fatigue(**STRENGTH, line=line)
+
+
+def over_time(signal, tensor, static=0.0):
+    """Stress (times, 1, 6) of one node."""
+    return (static + np.multiply.outer(signal, tensor))[:, None]
+
+
+def test_the_length_of_the_five_components_is_the_von_mises_stress():
+    sigma = np.random.default_rng(1).normal(size=(20, 6))
+    np.testing.assert_allclose(von_mises(sigma), of_tensor(sigma[:, FULL]), rtol=1e-13)
+
+
+def test_bending_over_tension_is_the_closed_form():
+    """Proportional: 90 MPa of tension, 30 of bending; in compression the mean is negative."""
+    for side in (1, -1):
+        mean, alternating = largest_cycle(over_time(30e6 * np.cos(PHASE), XX, side * 90e6 * XX))
+        assert (mean.item(), alternating.item()) == pytest.approx((side * 90e6, 30e6), rel=1e-12)
+    for line, allows in {"goodman": 455, "gerber": 495.95, "soderberg": 450}.items():
+        assert margin(np.array(90e6), np.array(30e6), of(line)) == pytest.approx(allows / 30)
+
+
+def test_alternating_shear_has_root_three_of_half_ranges_in_principal_axes():
+    """The same torsion along and across its principal directions; half-ranges lose the sign."""
+    signal = 10e6 * np.sin(PHASE)
+    for tensor in (XY, XX - YY):
+        _, alternating = largest_cycle(over_time(signal, tensor))
+        assert alternating.item() == pytest.approx(np.sqrt(3) * 10e6, rel=1e-12)
+    half_ranges = np.ptp(over_time(signal, XX - YY), axis=0) / 2
+    assert von_mises(half_ranges).item() == pytest.approx(10e6, rel=1e-12)
+
+
+def test_cycles_turn_with_the_axes():
+    turn = Rotation.from_rotvec([0.3, -0.5, 0.9]).as_matrix()
+    sigma = np.random.default_rng(2).normal(size=(40, 25, 6))
+    turned = (turn @ sigma[..., FULL] @ turn.T)[..., *TENSOR]
+    for one, other in zip(largest_cycle(sigma), largest_cycle(turned), strict=True):
+        np.testing.assert_allclose(one, other, rtol=1e-9)
+
+
+def test_one_frequency_out_of_phase_has_its_whole_change():
+    """On an ellipse the largest change is along its long axis."""
+    sigma = np.multiply.outer(np.cos(PHASE), 3 * XX) + np.multiply.outer(np.sin(PHASE), XY)
+    _, alternating = largest_cycle(sigma[:, None])
+    assert alternating.item() == pytest.approx(3.0, rel=1e-12)
+
+
+def test_several_frequencies_miss_little_of_the_largest_change():
+    """Five frequencies against all pairs of instants; none is more than the largest."""
+    rng = np.random.default_rng(3)
+    signals = [rng.uniform(0.1, 1) * np.cos(k * PHASE + rng.uniform(0, 6)) for k in (1, 2, 3, 5, 7)]
+    sigma = np.einsum("kt,knc->tnc", signals, rng.normal(size=(5, 300, 6)))
+    _, found = largest_cycle(sigma)
+    exact = np.array([pdist(node @ FIVE.T).max() / 2 for node in sigma.swapaxes(0, 1)])
+    shares = found / exact
+    assert shares.max() <= 1 + 1e-12 and shares.min() > 0.98
+    assert np.mean(shares < 1 - 1e-9) < 0.01
+
+
+def test_compression_earns_no_credit_and_yield_bounds_both():
+    mean = 1e6 * np.array([-950.0, -500.0, 0.0, 500.0, 850.0, 1100.0])
+    np.testing.assert_allclose(allowed(mean, of()), 1e6 * np.array([0, 400, 500, 250, 50, 0]))
+    np.testing.assert_allclose(allowed(mean, of("gerber"))[3:], 1e6 * np.array([375, 50, 0]))
+    assert margin(np.array([2e9, 0.0]), np.zeros(2), of()).tolist() == [0.0, 5e8]
+
+
+@pytest.mark.parametrize(
+    ("changes", "key"),
+    [({"yield_MPa": 400}, "yield_MPa"), ({"ultimate_MPa": 800}, "ultimate_MPa")],
+)
+def test_strengths_out_of_order_are_refused(changes, key):
+    with pytest.raises(SettingsError, match="below") as error:
+        check_settings(Fatigue, STRENGTH | changes, "mine.yaml")
+    assert key in str(error.value)
