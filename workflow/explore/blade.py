@@ -49,16 +49,14 @@ def moving(
             f"{mesh}: its surface has {len(nodes)} corner nodes; allowed on a page are {LARGEST}: "
             "take the scene out of `explore`, or a coarser mesh"
         )
-    order = dofs_at(basis.coordinates, solid.free_coordinates()).ravel()
-    of_all = np.zeros((3 * len(points), basis.T.shape[1]))  # clamped nodes, too
-    of_all[solid.free] = basis.T[order]
-    T = of_all[(3 * nodes[:, None] + np.arange(3)).ravel()]  # of the surface
     found = motion(sweep, rom.M, SHAPES)
     stresses = Stresses.of(solid, basis, found.shapes, blade.prestress).on(nodes)
+    order = dofs_at(basis.coordinates, solid.free_coordinates()).ravel()
+    displaced = map(solid.field, (basis.T @ found.shapes)[order].T)
     arrays = {
         "points": points[nodes],
         "triangles": numbered.reshape(-1, 3).astype(float),
-        "shapes": (T @ found.shapes).T.reshape(-1, len(nodes), 3),
+        "shapes": np.array([u.x.array.reshape(-1, 3)[nodes] for u in displaced]),
         "a": found.a,
         "static": MEGA * stresses.static,
         "of_shapes": MEGA * stresses.at(0.5)[1],
