@@ -23,10 +23,17 @@ from geometry.blade import Fatigue
 MEGA = 1e6
 TURNS = 3  # from an instant to the farthest one
 LEAST = 1.0  # Pa, the alternating stress of a blade at rest
-# The von Mises stress of (xx, yy, zz, xy, yz, xz) is the length of these five components.
-FIVE = np.zeros((5, 6))
-FIVE[0, :3], FIVE[1, 1:3] = (1, -0.5, -0.5), (sqrt(3) / 2, -sqrt(3) / 2)
-FIVE[2:, 3:] = sqrt(3) * np.eye(3)
+# The von Mises stress sqrt(3/2 s : s), s the deviator, is the length of these five components of
+# (xx, yy, zz, xy, yz, xz).
+FIVE = sqrt(3) * np.array(
+    [
+        [1 / sqrt(3), -0.5 / sqrt(3), -0.5 / sqrt(3), 0, 0, 0],
+        [0, 0.5, -0.5, 0, 0, 0],
+        [0, 0, 0, 1, 0, 0],
+        [0, 0, 0, 0, 1, 0],
+        [0, 0, 0, 0, 0, 1],
+    ]
+)
 
 
 def von_mises(sigma: NDArray[np.float64]) -> NDArray[np.float64]:

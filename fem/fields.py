@@ -1,9 +1,12 @@
 """Displacement, strain and stress of the whole blade at one time, and their VTK file for ParaView.
 
-From the static deflection and the vibration, prestress included: Eqs. (b), (e).
+From the static deflection and the vibration, prestress included: Eqs. (b), (e). And what strain
+gauges on its surface read: a grid averages over its length the strain e . E e along it, and the
+stress e . sigma e, of the fields averaged at nodes, quadratic on each facet. With `nonlinear`
+prestress E and e are those of the blade at rest, on which gauges are bonded.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -20,13 +23,21 @@ import ufl
 from dolfinx import fem
 from dolfinx.plot import vtk_mesh
 
+from fem.fatigue import von_mises
 from fem.solid import Solid, green_lagrange, read_solid, small_strain
 from geometry.blade import Blade
-from geometry.project import write_whole
+from geometry.facets import normals, shape_functions
+from geometry.frame import axes
+from geometry.hats import middles
+from geometry.project import SettingsError, write_whole
+from geometry.tetrahedra import exterior
 
 AWAY = 0.05  # of the blade's length: distance from clamp and tip at which the stress has converged
 TENSOR = ((0, 1, 2, 0, 1, 0), (0, 1, 2, 1, 2, 2))  # VTK's order: xx, yy, zz, xy, yz, xz
-FULL = np.array([(0, 3, 5), (3, 1, 4), (5, 4, 2)])  # places in it of the entries of a tensor
+TWICE = np.where(np.equal(*TENSOR), 1, 2)  # how often a tensor has each of them
+FARTHEST = 1e-3  # m, from the surface to the place that is given for a gauge
+LEAST = 0.2  # part of a direction along the surface: with less the facet decides on the grid
+PLACES = 5  # along a grid, at which the fields are averaged
 
 
 @dataclass(frozen=True)
@@ -34,18 +45,16 @@ class Stress:
     """Strain and Cauchy stress at the nodes of the mesh, clamped ones included.
 
     Evaluated in each cell at its nodes, and averaged by component over the cells that share a node,
-    as usual in finite-element codes. Averaging smooths jumps of the stress between cells;
-    ``of_cells`` is not averaged, and the difference of both indicates the error of the mesh.
+    as usual in finite-element codes.
     """
 
     strain: NDArray[np.float64]  # (nodes, 3, 3), Green-Lagrange; small strain for `linear`
     stress: NDArray[np.float64]  # (nodes, 3, 3), Pa, Cauchy
-    of_cells: NDArray[np.float64]  # (nodes,), Pa, largest von Mises stress in any cell of the node
 
     @property
     def von_mises(self) -> NDArray[np.float64]:
         """Von Mises stress (nodes,), Pa, of the averaged stress."""
-        return von_mises(self.stress)
+        return von_mises(self.stress[:, *TENSOR])
 
 
 def stress(solid: Solid, u: NDArray[np.float64], prestress: str) -> Stress:
@@ -56,45 +65,40 @@ def stress(solid: Solid, u: NDArray[np.float64], prestress: str) -> Stress:
     are not in K(Omega).
     """
     tensors = _strain_and_stress(solid, solid.field(u), prestress)
-    strain, sigma = (_expression(solid, of) for of in tensors)
-    of_cells = _at_nodes_of_cells(solid, sigma)
-    return Stress(
-        strain=_averaged(solid, _at_nodes_of_cells(solid, strain)),
-        stress=_averaged(solid, of_cells),
-        of_cells=_largest(solid, von_mises(of_cells)),
-    )
+    strain, sigma = (_averaged(solid, _expression(solid, of)) for of in tensors)
+    return Stress(strain, sigma)
 
 
-def rates(
-    solid: Solid, u: NDArray[np.float64], along: NDArray[np.float64], prestress: str
+def linearised(
+    solid: Solid,
+    u: NDArray[np.float64],
+    along: NDArray[np.float64],
+    prestress: str,
+    nodes: NDArray[np.int64] | None = None,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Derivatives of strain and stress about displacements ``u`` (free DoFs), m.
+    """Strain and stress about displacements ``u`` (free DoFs), m: their values and derivatives.
 
     Parameters
     ----------
     along : (k, free DoFs), displacements in whose directions the derivatives are taken
+    nodes : those of the result; all if not given
 
     Returns
     -------
-    strain, stress : (k, nodes, 6), 1 and Pa per unit of each, in the order of ``TENSOR``, averaged
-        at nodes as in ``Stress``
+    strain, stress : (1 + k, nodes, 6), 1 and Pa, those of ``u``, then those per unit of each of
+        ``along``; in the order of ``TENSOR``, averaged at nodes as in ``Stress``
     """
+    nodes = np.arange(len(solid.V.tabulate_dof_coordinates())) if nodes is None else nodes
+    cells = np.flatnonzero(np.isin(solid.V.dofmap.list, nodes).any(axis=1))
     at, v = solid.field(u), fem.Function(solid.V)
-    tensors = [ufl.derivative(of, at, v) for of in _strain_and_stress(solid, at, prestress)]
-    expressions, found = [_expression(solid, of) for of in tensors], []
-    for direction in along:
+    tensors = _strain_and_stress(solid, at, prestress)
+    rates = [_expression(solid, ufl.derivative(of, at, v)) for of in tensors]
+    found = [[_expression(solid, of) for of in tensors]] + [rates] * len(along)
+    for row, direction in enumerate([0.0, *along]):
         v.x.array[solid.free] = direction
-        fields = (_averaged(solid, _at_nodes_of_cells(solid, of)) for of in expressions)
-        found.append([of[:, *TENSOR] for of in fields])
-    strain, sigma = np.array(found).swapaxes(0, 1)
+        found[row] = [_averaged(solid, of, cells)[nodes] for of in found[row]]
+    strain, sigma = np.array(found)[..., *TENSOR].swapaxes(0, 1)
     return strain, sigma
-
-
-def von_mises(sigma: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Von Mises stress sqrt(3/2 s : s), s the deviator of ``sigma`` (..., 3, 3)."""
-    mean = np.trace(sigma, axis1=-2, axis2=-1) / 3
-    deviator = sigma - mean[..., None, None] * np.eye(3)
-    return np.sqrt(1.5 * (deviator**2).sum(axis=(-2, -1)))
 
 
 def _strain_and_stress(
@@ -112,26 +116,16 @@ def _expression(solid: Solid, tensor: ufl.core.expr.Expr) -> fem.Expression:
     return fem.Expression(tensor, solid.V.element.interpolation_points)
 
 
-def _at_nodes_of_cells(solid: Solid, expression: fem.Expression) -> NDArray[np.float64]:
-    """Values of a tensor in every cell at its own nodes (cells, 10, 3, 3)."""
-    cells = np.arange(len(solid.V.dofmap.list), dtype=np.int32)
-    return expression.eval(solid.mesh, cells).reshape(len(cells), -1, 3, 3)
-
-
-def _averaged(solid: Solid, of_cells: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Mean over the cells at each node (nodes, 3, 3)."""
-    nodes = solid.V.dofmap.list
+def _averaged(
+    solid: Solid, expression: fem.Expression, cells: NDArray[np.int64] | None = None
+) -> NDArray[np.float64]:
+    """Mean of a tensor over all cells, or ``cells``, at each of their nodes (nodes, 3, 3)."""
+    cells = np.arange(len(solid.V.dofmap.list)) if cells is None else cells
+    nodes = solid.V.dofmap.list[cells]
     total = np.zeros((nodes.max() + 1, 3, 3))
-    np.add.at(total, nodes, of_cells)
-    return total / np.bincount(nodes.ravel())[:, None, None]
-
-
-def _largest(solid: Solid, of_cells: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Largest value at each node (nodes,) of those of its cells (cells, 10)."""
-    nodes = solid.V.dofmap.list
-    largest = np.zeros(nodes.max() + 1)
-    np.maximum.at(largest, nodes, of_cells)
-    return largest
+    at_nodes = expression.eval(solid.mesh, cells.astype(np.int32))
+    np.add.at(total, nodes, at_nodes.reshape(*nodes.shape, 3, 3))
+    return total / np.maximum(np.bincount(nodes.ravel()), 1)[:, None, None]
 
 
 @dataclass(frozen=True)
@@ -144,31 +138,6 @@ class Fields:
     vibration: NDArray[np.float64]  # (nodes, 3), m, about it
     total: Stress  # of their sum
     prestress: Stress  # of the static deflection alone
-    settled: NDArray[np.bool_]  # (nodes,), away from the clamp's ends and from contact
-
-    def numbers(self) -> dict[str, Any]:
-        """Largest displacements, m, and von Mises stresses, Pa, with the place of the latter, m."""
-        return {
-            "largest_static_m": np.linalg.norm(self.static, axis=1).max(),
-            "largest_vibration_m": np.linalg.norm(self.vibration, axis=1).max(),
-            "von_mises": self._peak(self.total),
-            "von_mises_of_prestress": self._peak(self.prestress),
-        }
-
-    def _peak(self, of: Stress) -> dict[str, Any]:
-        """Largest of all nodes, and of those where it converges with mesh and patches."""
-        nodes = np.flatnonzero(self.settled)
-        return self._largest(of, np.arange(len(self.points))) | {
-            "settled": self._largest(of, nodes) if len(nodes) else None
-        }
-
-    def _largest(self, of: Stress, nodes: NDArray[np.int64]) -> dict[str, Any]:
-        node = nodes[of.von_mises[nodes].argmax()]
-        return {
-            "largest_Pa": of.von_mises[node],
-            "at_m": self.points[node].tolist(),
-            "largest_of_cells_Pa": float(of.of_cells[nodes].max()),
-        }
 
     def save(self, path: str | Path, numbers: Mapping[str, float]) -> None:
         """Write VTK XML, ``.vtu``, with ``numbers`` of it by name: speed, time.
@@ -258,7 +227,6 @@ def on_solid(
         vibration=solid.field(vibration).x.array.reshape(-1, 3),
         total=stress(solid, static + vibration, prestress),
         prestress=stress(solid, static, prestress),
-        settled=away(solid),
     )
 
 
@@ -269,20 +237,112 @@ def grid_of(solid: Solid) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
 
 
 def away(
-    solid: Solid, from_clamp: float | None = None, from_tip: float | None = None
+    solid: Solid,
+    from_clamp: float | None = None,
+    from_tip: float | None = None,
+    places: NDArray[np.float64] | None = None,
 ) -> NDArray[np.bool_]:
     """Nodes (nodes,) farther from clamp and tip than these, m, or ``AWAY`` of the blade's length.
 
-    Nearer the stress does not converge: at the ends of the clamp with the mesh, under the contact
-    with the patches.
+    Or ``places`` (n, 3), m. Nearer the stress does not converge: at the ends of the clamp with the
+    mesh, under the contact with the patches.
     """
     points = solid.V.tabulate_dof_coordinates()
+    places = points if places is None else places
     length = np.ptp(np.hypot(points[:, 0], points[:, 1]))
     ends = solid.clamped_coordinates(), points[np.unique(solid.tip)]
     widths = (AWAY * length if width is None else width for width in (from_clamp, from_tip))
-    nodes = [(cKDTree(of), width) for of, width in zip(ends, widths, strict=True) if len(of)]
-    near = [tree.query(points)[0] <= width for tree, width in nodes]
-    return ~np.any(near, axis=0) if near else np.ones(len(points), bool)
+    near = [
+        cKDTree(of).query(places)[0] <= width
+        for of, width in zip(ends, widths, strict=True)
+        if len(of)
+    ]
+    return ~np.any(near, axis=0) if near else np.ones(len(places), bool)
+
+
+def gauge_rows(
+    blade: Blade,
+    mesh_path: str | Path,
+    coordinates: NDArray[np.float64],
+    grids: Iterable[tuple[Any, float]],
+    statics: Iterable[NDArray[np.float64]],
+    T: NDArray[np.float64],
+) -> NDArray[np.float64]:
+    """What grids read (deflections, 2, grids, 1 + n): strain, and stress, Pa, along each.
+
+    Of each static deflection, then the derivatives about it by the columns of ``T``.
+
+    Parameters
+    ----------
+    coordinates : (n_full / 3, 3), m, the free nodes in the order of the displacements
+    grids : gauge (`name`, `at`, `direction`, `length_mm`) and angle, deg, of each grid
+    statics : (n_full,), m
+    T : (n_full, n), displacements
+
+    Raises
+    ------
+    SettingsError
+        As ``grid``.
+    """
+    solid, A = read_solid(str(mesh_path), blade.material), axes(blade.drawn)
+    order, found = dofs_at(coordinates, solid.free_coordinates()).ravel(), []
+    placed = [grid(solid, A, gauge, angle) for gauge, angle in grids]
+    weights, along = (np.array(of) for of in zip(*placed, strict=True))
+    nodes = np.flatnonzero(weights.any(axis=0))
+    for u in statics:
+        fields = linearised(solid, u[order], T.T[:, order], blade.prestress, nodes)
+        found.append(np.einsum("gm,qkmc,gc->qgk", weights[:, nodes], fields, along, optimize=True))
+    return np.array(found)
+
+
+def grid(
+    solid: Solid, A: NDArray[np.float64], gauge: Any, angle: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Weights of a field at the nodes (nodes,), and of its components (6,) as in ``TENSOR``.
+
+    ``A``: as of ``geometry.frame.axes``; ``angle``: deg from the gauge's direction, anticlockwise
+    seen from outside.
+
+    Raises
+    ------
+    SettingsError
+        When the gauge is not on the surface, its direction is not along it, or a part of the grid
+        is where the stress does not converge.
+    """
+    cells, points = grid_of(solid)
+    facets = exterior(cells)
+    surface = pv.PolyData.from_regular_faces(points, facets[:, :3])
+    at, direction = A @ gauge.at, A @ gauge.direction
+    facet, foot = surface.find_closest_cell(at, return_closest_point=True)
+    normal = normals(facets[[facet]], points)[0]
+    across = np.cross(normal, direction)
+    sides = np.cross(across, normal), across * np.sign(np.linalg.det(A))  # A may mirror
+    first, second = (of / (np.linalg.norm(of) or 1.0) for of in sides)
+    e = np.cos(np.radians(angle)) * first + np.sin(np.radians(angle)) * second
+    places = foot + 1e-3 * gauge.length_mm * (middles(PLACES)[:, None] - 0.5) * e
+    under, feet = surface.find_closest_cell(places, return_closest_point=True)
+    for refused, why in (
+        (
+            (off := np.linalg.norm(at - foot)) > FARTHEST,
+            f"at {[*gauge.at]}: {1e3 * off:.3g} mm from the surface; allowed {1e3 * FARTHEST:g} mm",
+        ),
+        (
+            first @ direction <= LEAST * np.linalg.norm(direction),
+            f"direction {[*gauge.direction]}: across the surface there; give one along it",
+        ),
+        (
+            not away(solid, places=feet).all(),
+            f"at {[*gauge.at]}: nearer to clamp or tip than {AWAY:.0%} of the blade's length, "
+            "where the stress does not converge with mesh and patches; allowed farther",
+        ),
+    ):
+        if refused:
+            raise SettingsError(f"gauge {gauge.name!r}, {why}", key="record.gauges")
+    a, b, c = points[facets[under, :3]].transpose(1, 0, 2)
+    edges = np.stack([b - a, c - a], axis=2)
+    local = (np.linalg.pinv(edges) @ (feet - a)[..., None])[..., 0]
+    weights = (shape_functions(local) / PLACES).ravel()
+    return np.bincount(facets[under].ravel(), weights, len(points)), np.outer(e, e)[TENSOR] * TWICE
 
 
 def dofs_at(coordinates: NDArray, points: NDArray) -> NDArray[np.int64]:

@@ -297,12 +297,14 @@ class Fatigue(Settings):
 
     @checked
     def _in_order(self) -> None:
-        for low, high in (("endurance_MPa", "yield_MPa"), ("yield_MPa", "ultimate_MPa")):
-            value, least = getattr(self, high), getattr(self, low)
-            if value < least:
-                raise SettingsError(
-                    f"below {low} = {least:g}", key=high, value=value, allowed={"ge": least}
-                )
+        if not self.endurance_MPa <= self.yield_MPa <= self.ultimate_MPa:
+            raise SettingsError(
+                f"allowed from endurance_MPa = {self.endurance_MPa:g} to ultimate_MPa = "
+                f"{self.ultimate_MPa:g}",
+                key="yield_MPa",
+                value=self.yield_MPa,
+                allowed={"ge": self.endurance_MPa, "le": self.ultimate_MPa},
+            )
 
 
 TOP_SPEEDS = ("max_speed_rad_s", "max_speed_rpm")
@@ -454,6 +456,11 @@ class Blade(SettingsFile):
     def source(self) -> Sections | SectionTable | Cad | MeshFile:
         """Settings of the source of geometry."""
         return getattr(self, self.source_key)
+
+    @property
+    def drawn(self) -> SourceFile:
+        """Axes and unit of the geometry's file; without one those of `sections`: ours, in mm."""
+        return self.source if self.file else SourceFile(file="", unit="mm")
 
     @property
     def file(self) -> PurePath | None:

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from geometry.blade import Frame, SourceFile
 from geometry.project import MeshError
+from geometry.tetrahedra import MIRRORED
 
 LENGTHS = (1e-3, 5.0)  # m; for blades outside this range the unit is taken to be wrong
 MOST_ANGLE = 45.0  # deg from `radial`; one of the four axes is always within
@@ -23,6 +24,11 @@ def rotation(frame: Frame) -> NDArray[np.float64]:
     return np.array([x, y, z])
 
 
+def axes(source: SourceFile) -> NDArray[np.float64]:
+    """A (3, 3): a point x of the file is A x in the blade's frame, m."""
+    return rotation(source.frame) * source.metres
+
+
 def to_blade(
     points: NDArray, source: SourceFile, remedy: str = "choose another unit"
 ) -> NDArray[np.float64]:
@@ -35,10 +41,23 @@ def to_blade(
     MeshError
         When the length is not in ``LENGTHS``, or the blade is not along ``frame.radial``.
     """
-    placed = np.asarray(points) @ rotation(source.frame).T * source.metres
+    placed = np.asarray(points) @ axes(source).T
     _check_length(placed, source, remedy)
     _check_angle(placed, source)
     return placed
+
+
+def to_file(vectors: NDArray, source: SourceFile) -> NDArray[np.float64]:
+    """Vectors (..., 3 k), m, x, y, z of k of them in turn, in the file's unit and axes.
+
+    The inverse of ``to_blade``.
+    """
+    return (vectors.reshape(-1, 3) @ np.linalg.inv(axes(source)).T).reshape(vectors.shape)
+
+
+def turned(cells: NDArray, source: SourceFile) -> NDArray[np.int64]:
+    """Cells (n, 10) of a file for the blade's frame, or back: a left-handed frame mirrors them."""
+    return cells[:, MIRRORED] if np.linalg.det(axes(source)) < 0 else cells
 
 
 def box(points: NDArray) -> str:

@@ -5,17 +5,16 @@ from pathlib import Path
 
 import gmsh
 import numpy as np
-from numpy.linalg import det
 from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
 from geometry.blade import MeshFile
-from geometry.frame import rotation, to_blade
+from geometry.frame import to_blade, turned
 from geometry.mesh_faces import root_and_tip
 from geometry.mesh_file import read_mesh_file
 from geometry.project import MeshError, MeshWarning
 from geometry.shape import CELL, FACET, Shape, jacobian_ratios
-from geometry.tetrahedra import EDGES, GMSH, MIRRORED, edge_lengths, exterior
+from geometry.tetrahedra import EDGES, GMSH, edge_lengths, exterior
 
 MOST_APART = 4.0  # times; 1.6 on our own meshes
 MOST_BENT = 0.5  # of an edge's length: half a circle; below 0.02 on our own meshes
@@ -46,9 +45,7 @@ def import_mesh(source: MeshFile, path: str | Path) -> Shape:
         print(f"{source.file}: {mesh.made}")
     if mesh.first_order:
         warnings.warn(f"{source.file}: {FACETED}", MeshWarning, stacklevel=2)
-    points, cells = to_blade(mesh.points, source), mesh.cells
-    if det(rotation(source.frame)) < 0:  # a left-handed frame mirrors the cells
-        cells = cells[:, MIRRORED]
+    points, cells = to_blade(mesh.points, source), turned(mesh.cells, source)
     _check_bent(points, cells)
     surface = exterior(cells)
     _check_merged(points, cells, np.unique(surface))

@@ -68,17 +68,19 @@ class Stored:
         write(xr.Dataset(variables, coordinates, attributes), path)
 
     @classmethod
-    def load(cls, path: str | Path) -> Self:
-        """Read NetCDF.
+    def load(cls, path: str | Path, of: Provenance | None = None) -> Self:
+        """Read NetCDF; ``of``: the provenance that it must have, where it has to be a certain one.
 
         Raises
         ------
         ProvenanceError
             When the file is missing, damaged, of another kind or format, made by another version of
-            the code, or holds values that cannot be: other dimensions, nan, not symmetric.
+            the code, of another provenance, or holds values that cannot be: other dimensions, nan,
+            not symmetric.
         """
         with opened(path, cls.__name__) as (dataset, provenance):
             provenance.require_code(cls.code, path)
+            provenance.require(of or provenance, path)
             values = {
                 f.name: (_read_sparse if f.metadata["sparse"] else _read)(dataset, f)
                 for f in _own(cls)

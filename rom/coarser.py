@@ -44,7 +44,7 @@ def coarser(rom: Rom) -> tuple[Rom, NDArray[np.float64]]:
     T = enriched_basis(at_speeds, S, rom.stiffness(0.0), rom.M, basis.rank_tolerance)
     K = np.stack([project(K, T) for K in rom.K])
     growth = rom.growth @ along.T if rom.growth.size else rom.growth
-    return replace(rom, M=project(rom.M, T), K=K, xi=nodes, growth=growth), T
+    return replace(rom, M=project(rom.M, T), K=K, xi=nodes, growth=growth, gauges=()), T
 
 
 def _components(rom: Rom, Omega: float, S: NDArray[np.float64], modes: int) -> Components:

@@ -22,7 +22,7 @@ from geometry.project import Provenance, code_hash, file_hash, sealed
 from geometry.tip import cartesian
 from rom.model import CODE, DIRECTIONS, Rom, RomError
 
-OPTIONAL = ("points", "f1", "growth", "speeds")
+OPTIONAL = ("points", "f1", "growth", "speeds", "gauges", "gauge_rows")
 PAGE = "rom/README.md, A reduced model from elsewhere,"
 SPEEDS = 33  # over [0, Omega_m], at which K must be positive definite
 DEFINITE = 1e-14  # of the largest eigenvalue: round-off

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eigh
 
+from geometry.blade import RPM
 from geometry.hats import hats, middles
 from geometry.project import Provenance, UserError
 from geometry.stored import Stored, stored
@@ -46,7 +47,9 @@ def require_speed(Omega: float, Omega_m: float) -> None:
     """
     if not 0 <= Omega <= Omega_m * (1 + 1e-12):
         raise RomError(
-            f"speed {Omega:.6g} rad/s is outside [0, {Omega_m:.6g}] rad/s", allowed=(0, Omega_m)
+            f"speed {Omega:.6g} rad/s is outside [0, {Omega_m:.6g}] rad/s ({RPM * Omega:.6g} rpm, "
+            f"highest {RPM * Omega_m:.6g})",
+            allowed=(0, Omega_m),
         )
 
 
@@ -91,6 +94,16 @@ class Rom(Stored):
     # of its basis, at which K(Omega) is that of the full model, ascending; empty: not known
     speeds: NDArray[np.float64] = stored(
         "speed", "rad s-1", default_factory=lambda: np.empty(0), long_name="speeds of the basis"
+    )
+    # names of the grids of strain gauges; none but in a model that is made for a scene
+    gauges: tuple[str, ...] = stored("gauge", default_factory=tuple)
+    # (powers, 2, gauges, 1 + n), sum Omega^power gauge_rows: strain along each grid, 1, and stress
+    # along it, Pa: of the static deflection, then their derivatives about it by each DoF
+    gauge_rows: NDArray[np.float64] = stored(
+        "gauge_power quantity gauge static_dof",
+        "1 and Pa, m-1 and Pa m-1, (rad s-1)^-power",
+        default_factory=lambda: np.empty((0, 2, 0, 0)),
+        long_name="strain and stress along gauges: static, then by displacements of the DoFs",
     )
 
     def require_possible(self) -> None:

@@ -98,13 +98,18 @@ class Subject(NamedTuple):
         geometry.project.errors.UserError
             When it has not, or its model is another one now.
         """
-        if name not in yaml_file.names("workflow/scenes"):
-            raise SettingsError(f"no workflow/scenes/{name}.yaml", key=name)
+        if name not in (there := yaml_file.names("workflow/scenes")):
+            raise SettingsError(
+                f"no workflow/scenes/{name}.yaml: there are {', '.join(there)}", key=name
+            )
         scene = Scene.load(f"workflow/scenes/{name}.yaml")
         folder = Path("results", scene.blade, name)
         if not (folder / "sweep.nc").is_file():
             raise SettingsError(
-                f"no result yet: ./run snakemake {folder}/sweep.nc, then check it", key=name
+                "its design makes tables, and no sweep: name a scene without one"
+                if scene.design
+                else f"no result yet: ./run snakemake {folder}/sweep.nc, then call this again",
+                key=name,
             )
         runs = load(folder / "sweep.nc")
         rom = Rom.load(folder.parent / f"rom-{scene.directions}.nc")

@@ -6,20 +6,62 @@ from typing import Any
 from fem.petsc import MPI  # noqa: F401  ahead of DOLFINx
 
 import numpy as np
-import xarray as xr
 from numpy.linalg import norm
 from numpy.typing import NDArray
 
 from fem.fatigue import largest_cycle, margin, von_mises
-from fem.fields import TENSOR, dofs_at, rates, stress
-from fem.solid import Solid
-from geometry.blade import Fatigue
+from fem.fields import away, dofs_at, grid_of, linearised, save_vtu
+from fem.solid import Solid, read_solid
+from geometry.blade import RPM, Blade, Fatigue
+from rom.model import Rom
 from rom.polynomial import evaluate, interpolate
 from rom.reconstruct import Basis
 from simulate.marching import WITH_RESULT
+from simulate.scene import GROWING
+from simulate.sweeps.dataset import Sweep, origin
+from simulate.sweeps.peak_results import asked
 
+SHAPES = 12  # of the motion at all speeds
+LABELS = {
+    "mean_stress": "mean stress (Pa)",
+    "alternating": "alternating stress (Pa)",
+    "margin": "margin",
+}
 SPEEDS = 3  # at which stress is computed; polynomials in Omega^2 between them
 BLOCK = 128  # nodes at a time
+
+
+def write(
+    blade: Blade, mesh: str, rom: Rom, basis: str, sweep: Sweep, names: dict[str, str], vtu: str
+) -> dict[str, Any]:
+    """Write the fields at the reported peaks; return the worst node at every speed.
+
+    A motion that still grows has no mean and no amplitude yet: of that nothing is told.
+    """
+    of_basis = Basis.load(basis, origin(sweep))
+    solid, fatigue = read_solid(mesh, blade.material), blade.fatigue
+    moved = motion(sweep, rom.stiffness(rom.Omega_m / 2), SHAPES)
+    sigma = stresses(solid, of_basis, moved.shapes, blade.prestress)
+    settled, (cells, points) = away(solid), grid_of(solid)
+    nodes, fields = np.flatnonzero(settled), {"away from clamp and contact": settled.astype(float)}
+    away_from, peaks, rows = sigma[:, :, nodes], {of.index for of in asked(sweep, rom)}, []
+    told = (sweep[name].values.tolist() for name in ("speed", "speed_over_f1", "trend"))
+    for speed, (Omega, over_f1, trend) in enumerate(zip(*told, strict=True)):
+        rows.append({"speed_over_f1": over_f1, "trend": trend})
+        part, a = Omega / of_basis.Omega_m, moved.with_rotation(speed)
+        if trend == GROWING or len(a) == 0:
+            continue
+        node, found = worst(evaluate(away_from, part), a, fatigue)
+        rows[-1] |= found | {"at_m": points[nodes[node]].tolist()}
+        if speed in peaks:
+            of_all = numbers(*cycles(evaluate(sigma, part), a), fatigue)
+            fields |= {f"{LABELS[of]}, {RPM * Omega:.0f} rpm": of_all[of] for of in of_all}
+    save_vtu(points, cells, fields, vtu)
+    return {
+        **names,
+        "fatigue": fatigue and fatigue.model_dump(mode="json"),
+        "speeds": rows,
+    }
 
 
 @dataclass(frozen=True)
@@ -30,12 +72,13 @@ class Motion:
     a: NDArray[np.float64]  # (speeds, times, shapes); nan where no state was recorded
     missed: NDArray[np.float64]  # (speeds,), rms norm of what is missed over the whole
 
-    def at(self, speed: int) -> NDArray[np.float64]:
-        """Amplitudes (times, shapes) of the states that were recorded at a speed."""
-        return self.a[speed][~np.isnan(self.a[speed]).any(axis=1)]
+    def with_rotation(self, speed: int) -> NDArray[np.float64]:
+        """Amplitudes (times, 1 + shapes) of the states recorded at a speed: 1, then the shapes'."""
+        a = self.a[speed][~np.isnan(self.a[speed]).any(axis=1)]
+        return np.hstack([np.ones((len(a), 1)), a])
 
 
-def motion(sweep: xr.Dataset, G: NDArray[np.float64], shapes: int) -> Motion:
+def motion(sweep: Sweep, G: NDArray[np.float64], shapes: int) -> Motion:
     """Proper orthogonal decomposition of ``sweep.motion`` with the norm (u^T G u)^(1/2).
 
     With G = M the first shapes hold the displacement, with G = K the strain energy, and so the
@@ -58,77 +101,55 @@ def motion(sweep: xr.Dataset, G: NDArray[np.float64], shapes: int) -> Motion:
     return Motion(np.linalg.solve(L.T, first), states @ L @ first, np.array(missed, float))
 
 
-@dataclass(frozen=True)
-class Stresses:
-    """Stress of rotation and of a unit of each shape, about the static state, Pa.
+def stresses(
+    solid: Solid, basis: Basis, shapes: NDArray[np.float64], prestress: str
+) -> NDArray[np.float64]:
+    """Stress (powers, 1 + shapes, nodes, 6), Pa: of rotation, then of a unit of each shape.
 
-    Polynomials in (Omega / Omega_m)^2; components in the order of ``fem.fields.TENSOR``.
+    Polynomials in (Omega / Omega_m)^2; ``shapes`` (n, shapes) in reduced coordinates; components in
+    the order of ``fem.fields.TENSOR``.
     """
-
-    static: NDArray[np.float64]  # (powers, nodes, 6)
-    moving: NDArray[np.float64]  # (powers, shapes, nodes, 6)
-
-    @classmethod
-    def of(
-        cls, solid: Solid, basis: Basis, shapes: NDArray[np.float64], prestress: str
-    ) -> "Stresses":
-        """Those of all nodes; ``shapes`` (n, shapes) in reduced coordinates."""
-        order = dofs_at(basis.coordinates, solid.free_coordinates()).ravel()
-        along = (basis.T @ shapes).T[:, order]
-        speeds = np.sqrt((1 - np.cos(np.pi * np.arange(SPEEDS) / (SPEEDS - 1))) / 2)
-        static = [basis.static(part * basis.Omega_m)[order] for part in speeds]
-        of_rotation = [stress(solid, u, prestress).stress[:, *TENSOR] for u in static]
-        of_shapes = [rates(solid, u, along, prestress)[1] for u in static]
-        return cls(*(interpolate(np.array(of), speeds) for of in (of_rotation, of_shapes)))
-
-    def at(self, part: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Static (nodes, 6) and moving (shapes, nodes, 6) at Omega / Omega_m."""
-        return evaluate(self.static, part), evaluate(self.moving, part)
-
-    def on(self, nodes: NDArray[np.int64]) -> "Stresses":
-        """Those of some nodes."""
-        return Stresses(self.static[:, nodes], self.moving[:, :, nodes])
+    order = dofs_at(basis.coordinates, solid.free_coordinates()).ravel()
+    along = (basis.T @ shapes).T[:, order]
+    speeds = np.sqrt((1 - np.cos(np.pi * np.arange(SPEEDS) / (SPEEDS - 1))) / 2)
+    static = (basis.static(part * basis.Omega_m)[order] for part in speeds)
+    found = [linearised(solid, u, along, prestress)[1] for u in static]
+    return interpolate(np.array(found), speeds)
 
 
 def cycles(
-    static: NDArray[np.float64], moving: NDArray[np.float64], a: NDArray[np.float64]
+    sigma: NDArray[np.float64], a: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Mean and alternating stress (nodes,), Pa, of static (nodes, 6) and a (times, shapes)."""
-    blocks = range(BLOCK, len(static), BLOCK)
-    pairs = zip(np.split(static, blocks), np.split(moving, blocks, axis=1), strict=True)
-    found = [largest_cycle(of + np.tensordot(a, along, 1)) for of, along in pairs]
+    """Mean and alternating stress (nodes,), Pa, of the motion a (times, 1 + shapes).
+
+    ``sigma`` (1 + shapes, nodes, 6): as of ``stresses`` at one speed; of rotation a is 1.
+    """
+    blocks = np.split(sigma, range(BLOCK, sigma.shape[1], BLOCK), axis=1)
+    found = [largest_cycle(np.tensordot(a, of, 1)) for of in blocks]
     mean, alternating = map(np.concatenate, zip(*found, strict=True))
     return mean, alternating
 
 
 def worst(
-    static: NDArray[np.float64],
-    moving: NDArray[np.float64],
-    a: NDArray[np.float64],
-    fatigue: Fatigue | None,
+    sigma: NDArray[np.float64], a: NDArray[np.float64], fatigue: Fatigue | None
 ) -> tuple[int, dict[str, float]]:
     """The node of least margin, or without strength of largest alternating stress; its numbers.
 
     Nodes are searched by bounds of their stresses: the von Mises stress is a seminorm, so that mean
-    and alternating stress are at most those of the static stress and of each shape by itself,
-    added. They are tried from the one on whose bounds the margin is least.
+    and alternating stress are at most those of rotation and of each shape by itself, added. Those
+    whose bounds leave less margin than the worst of a first few are computed. Arguments as of
+    ``cycles``.
     """
     _, _, turn = np.linalg.svd(a - a.mean(axis=0), full_matrices=False)
-    a, moving = a @ turn.T, np.tensordot(turn, moving, 1)  # in its own directions: close bounds
-    of_shapes = von_mises(moving)
-    most = von_mises(static) + np.abs(a).max(axis=0) @ of_shapes
-    bound = _reserve(most, np.ptp(a, axis=0) / 2 @ of_shapes, fatigue)
-    order, least = np.argsort(bound), np.inf
-    for nodes in np.split(order, range(BLOCK, len(order), BLOCK)):
-        if bound[nodes[0]] >= least:
-            break
-        mean, alternating = cycles(static[nodes], moving[:, nodes], a)
-        reserve = _reserve(mean, alternating, fatigue)
-        best = reserve.argmin()
-        if reserve[best] < least:
-            least = reserve[best]
-            found = nodes[best], numbers(mean[best], alternating[best], fatigue)
-    return found
+    a, sigma = a @ turn.T, np.tensordot(turn, sigma, 1)  # in its own directions: close bounds
+    each = von_mises(sigma)
+    bound = _reserve(numbers(np.abs(a).max(axis=0) @ each, np.ptp(a, axis=0) / 2 @ each, fatigue))
+    first = np.argsort(bound)[:BLOCK]
+    least = _reserve(numbers(*cycles(sigma[:, first], a), fatigue)).min()
+    nodes = np.union1d(first, np.flatnonzero(bound < least))
+    found = numbers(*cycles(sigma[:, nodes], a), fatigue)
+    best = _reserve(found).argmin()
+    return nodes[best], {name: float(of[best]) for name, of in found.items()}
 
 
 def numbers(mean: Any, alternating: Any, fatigue: Fatigue | None) -> dict[str, Any]:
@@ -137,8 +158,6 @@ def numbers(mean: Any, alternating: Any, fatigue: Fatigue | None) -> dict[str, A
     return {"mean_stress": mean, "alternating": alternating, **of_strength}
 
 
-def _reserve(
-    mean: NDArray[np.float64], alternating: NDArray[np.float64], fatigue: Fatigue | None
-) -> NDArray[np.float64]:
+def _reserve(of: dict[str, NDArray[np.float64]]) -> NDArray[np.float64]:
     """What is least at the worst node."""
-    return margin(mean, alternating, fatigue) if fatigue else -alternating
+    return of.get("margin", -of["alternating"])

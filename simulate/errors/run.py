@@ -66,9 +66,11 @@ class Run(Case):
     seconds: float = 0.0  # wall time of the run and of those beside it
 
     def beside(self, other: Neighbour) -> Case:
-        """As of a case, for as many revolutions as the run took."""
+        """As of a case, for as many revolutions as the run took, and without gauges."""
         scene = as_long(self.scene, self.outcome.rounds)
-        return Case(scene, self.rom, self.setup, self.left).beside(other)
+        record = scene.record.model_copy(update={"gauges": None})
+        without = scene.model_copy(update={"record": record})
+        return Case(without, self.rom, self.setup, self.left).beside(other)
 
     @property
     def largest_error(self) -> float:

@@ -63,7 +63,7 @@ def _faults(scene: Scene, rom: Rom) -> list[Fault]:
     outgrown = growth_fault(clearance, rom, strip_places(rom, liner.m).xi, known)
     gaps_are_known = not (clearance.at_rest and (too_fast or outgrown))
     return [
-        *_model(scene.blade, scene.contact, directions, rom),
+        *_model(scene.blade, scene.contact, [*scene.record.grids], directions, rom),
         *too_fast,
         *_liner(liner, rom.camber[:, 0]),
         *_strips(liner, rom),
@@ -73,8 +73,10 @@ def _faults(scene: Scene, rom: Rom) -> list[Fault]:
     ]
 
 
-def _model(blade: str, contact: Contact, directions: str, rom: Rom) -> Iterator[Fault]:
-    """A reduced model of another blade, or without the directions of the contact."""
+def _model(
+    blade: str, contact: Contact, gauges: list[str], directions: str, rom: Rom
+) -> Iterator[Fault]:
+    """A reduced model of another blade, or without the directions of the contact, or gauges."""
     if rom.provenance.blade != blade:
         yield Fault(
             f"the reduced model is of blade {rom.provenance.blade!r}; take "
@@ -91,6 +93,13 @@ def _model(blade: str, contact: Contact, directions: str, rom: Rom) -> Iterator[
             f"`./run snakemake results/{rom.provenance.blade}/rom-{directions}.nc`",
             f"contact.{'tangential' if friction is None else 'friction'}",
             True if friction is None else friction,
+        )
+    if gauges and gauges != [*rom.gauges]:
+        yield Fault(
+            f"the reduced model has {', '.join(rom.gauges) or 'no gauges'}; take gauges.nc of this "
+            f"scene: `./run snakemake results/{blade}/<scene>/gauges.nc`",
+            "record.gauges",
+            ", ".join(gauges),
         )
 
 

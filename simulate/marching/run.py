@@ -55,6 +55,9 @@ class Outcome:
     trend: str = TOO_SHORT  # whether the motion is steady
     left: Left | None = None  # start of the next run, where it is asked for
     reason: str = ""  # of a run without contact: why the tip did not touch
+    # (times, 2 gauges): strain along gauges, 1, then stress, Pa, of the vibration, at every other
+    # sample of the revolutions of the spectrum, else of the last; nan in those not computed
+    gauges: NDArray[np.float64] | None = None
 
     @property
     def ledger(self) -> Ledger:
@@ -66,13 +69,13 @@ def _room(record: Record, rounds: int, places: int, modes: int) -> list[NDArray[
     """Room for records of the kernel: u_r at places, forces on eighths, modal displacements.
 
     In each the first row is of every revolution that is not kept, those after it of the last
-    revolutions; nan where not computed.
+    revolutions; nan where not computed. Gauges read modal displacements revolution by revolution.
     """
     samples, of_states = record.samples_per_round, record.rounds_of_states
     shapes = (
         (record.rounds_of_u_r(rounds), samples, places),
         (rounds, 3, SHARES if record.contact_force else 0),
-        (of_states, samples if of_states else 0, modes),
+        (of_states, samples if of_states or record.gauges else 0, modes),
     )
     return [np.full((1 + kept, *shape), np.nan) for kept, *shape in shapes]
 
@@ -128,6 +131,9 @@ def march(scene: Scene, setup: Setup, left: Left | Worn | None = None) -> Outcom
     least = scene.record.spectrum_rounds or 1
     judged = looks(standing, least, scene.rounds) if scene.until else {scene.rounds}
     still = [STEADY] * 2 if scene.until else None  # at two looks in turn
+    every = 2 - scene.record.samples_per_round % 2  # twice as many readings cost a run 2 % more
+    of_round = scene.record.samples_per_round // every, len(setup.Phi_gauges)
+    gauges = np.full((least, *of_round), np.nan)
     while done < scene.rounds and end == RUNNING and words[-2:] != still:
         of_kernel = arguments(done, first)
         touched, step, end, node = kernel(*of_kernel)
@@ -136,6 +142,9 @@ def march(scene: Scene, setup: Setup, left: Left | Worn | None = None) -> Outcom
         if end == RUNNING:
             samples = of_kernel[3].samples[:, 0]
             each.add(done, samples, _worn(setup, state))
+            if scene.record.gauges and (row := done - scene.rounds + least) >= 0:
+                modal = of_kernel[3].states[every - 1 :: every, : len(setup.Phi)]
+                gauges[row] = modal @ setup.Phi_gauges.T
         done += 1
         if done in judged or end != RUNNING:
             whole = end == RUNNING
@@ -179,6 +188,7 @@ def march(scene: Scene, setup: Setup, left: Left | Worn | None = None) -> Outcom
         reason=why_no_contact(scene, strips, state.eps_p, first + done)
         if status == "no-contact"
         else "",
+        gauges=np.concatenate(gauges),
     )
 
 

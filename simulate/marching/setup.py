@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from geometry.project import UserError
 from rom.model import Rom
+from rom.polynomial import evaluate
 from simulate.contact.gaps import gaps_at, growth_fault
 from simulate.contact.law_check import compile_fault
 from simulate.contact.places import Places, strip_places
@@ -49,6 +50,7 @@ class Setup:
     Phi_b: NDArray[np.float64]  # (m, n), their radial displacements over the strips, P Phi
     Phi_t: NDArray[np.float64] | None  # (m, n), the tangential ones; None for radial contact
     Phi_out: NDArray[np.float64]  # (places, n), the radial ones at the outputs, xi = 1/16 first
+    Phi_gauges: NDArray[np.float64]  # (2 gauges, n): strain along gauges, 1, then stress, Pa
     places: Places
     strips: Strips
     bound: float  # m, displacement beyond which a run has diverged
@@ -99,6 +101,9 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
         Phi_b=Phi_b,
         Phi_t=Phi_t,
         Phi_out=rom.rows(np.array([LEADING, *scene.record.chord])) @ Phi,
+        Phi_gauges=evaluate(rom.gauge_rows, Omega)[..., 1:].reshape(-1, rom.n) @ Phi
+        if scene.record.gauges
+        else Phi[:0],
         places=places,
         strips=strips,
         bound=LARGEST_DISPLACEMENT * rom.span,

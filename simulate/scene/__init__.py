@@ -15,7 +15,7 @@ from simulate.scene.record import (
     Peaks,
     Record,
 )
-from simulate.scene.scene import Scene, fault_of_blade
+from simulate.scene.scene import OF_LAST_ROUNDS, Scene, fault_of_blade
 from simulate.scene.speeds import OF_RPM, OVER_F1, RAD_S, Speeds
 
 __all__ = [
@@ -23,6 +23,7 @@ __all__ = [
     "DYING_OUT",
     "GROWING",
     "LEADING",
+    "OF_LAST_ROUNDS",
     "OF_RPM",
     "OVER_F1",
     "RAD_S",

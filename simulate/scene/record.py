@@ -4,11 +4,12 @@ from typing import Annotated, ClassVar
 
 from pydantic import Field
 
-from geometry.project import Settings
+from geometry.project import Settings, SettingsError, checked
 
 STEADY, GROWING, DYING_OUT, TOO_SHORT = "steady", "growing", "dying out", "too short to say"
 TRENDS = (STEADY, GROWING, DYING_OUT, TOO_SHORT)  # of a run, at its end (``marching.trend``)
 BESIDE = 2  # engine orders beside that of a peak, with which it is compared
+ROSETTE = (0, 45, 90)  # deg, of its grids from the first, anticlockwise seen from outside
 
 
 class History(Settings):
@@ -18,6 +19,27 @@ class History(Settings):
 
     chord: list[Annotated[float, Field(ge=0, le=1)]] = Field(
         min_length=1, description="Places as chord fractions, 0 at the leading edge"
+    )
+
+
+class Gauge(Settings):
+    """A strain gauge on the surface of the blade, of one grid or three."""
+
+    name: str = Field(pattern=r"^[a-z0-9][a-z0-9-]*$", description="Name in results")
+    at: tuple[float, float, float] = Field(
+        description="Its middle, in axes and unit of the blade's file; of a blade from `sections` "
+        "in the blade's frame (mm)"
+    )
+    direction: tuple[float, float, float] = Field(
+        description="Along its grid, in the same axes; its part along the surface counts"
+    )
+    rosette: bool = Field(
+        default=False,
+        description="Three grids, NAME-0 along the direction, NAME-45 and NAME-90 anticlockwise "
+        "from there (deg, seen from outside)",
+    )
+    length_mm: float = Field(
+        default=2.0, gt=0, le=50, description="Length over which strain is averaged (mm)"
     )
 
 
@@ -54,6 +76,12 @@ class Record(Settings):
         description="For animations: states of the last revolution, eight in each period of this "
         "natural mode, and the range of u_r at xi = 1/16 in sixteenths of each revolution",
     )
+    gauges: list[Gauge] | None = Field(
+        default=None,
+        min_length=1,
+        description="Strain gauges: strain and stress over the revolutions of the spectrum, else "
+        "over the last",
+    )
 
     def rounds_of_u_r(self, rounds: int) -> int:
         """Last revolutions, of all ``rounds``, whose displacements are kept."""
@@ -70,6 +98,15 @@ class Record(Settings):
         return self.history.chord if self.history else []
 
     @property
+    def grids(self) -> dict[str, tuple[Gauge, int]]:
+        """Gauge of each grid, and its angle there, deg, by its name in results."""
+        return {
+            f"{of.name}-{angle}" if of.rosette else of.name: (of, angle)
+            for of in self.gauges or []
+            for angle in (ROSETTE if of.rosette else ROSETTE[:1])
+        }
+
+    @property
     def observables(self) -> list[str]:
         """Names of the recorded outputs."""
         asked = {
@@ -80,6 +117,15 @@ class Record(Settings):
             "states": self.states_rounds,
         }
         return [name for name, wanted in asked.items() if wanted]
+
+    @checked
+    def _grids_have_names_of_their_own(self) -> None:
+        if len(self.grids) < sum(len(ROSETTE) if of.rosette else 1 for of in self.gauges or []):
+            raise SettingsError(
+                "two have the same name in results, where that of a rosette ends in -0, -45, -90",
+                key="gauges",
+                value=", ".join(of.name for of in self.gauges),
+            )
 
 
 class Peaks(Settings):

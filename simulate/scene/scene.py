@@ -37,7 +37,7 @@ NOT_ESTIMATED = (
     "accuracy, whose errors are not estimated with it (give integrator, liner.rods_per_round and "
     "liner.strips instead)"
 )
-OF_LAST_ROUNDS = ("history", "states_rounds", "motion")  # of the record, over time
+OF_LAST_ROUNDS = ("history", "states_rounds", "motion", "gauges")  # of the record, over time
 EXCLUDED = [  # keys of which a scene has one at most, named by the first
     ("start", "accuracy"),
     ("start", "design"),

@@ -120,6 +120,7 @@ def _memory(speeds: int, record: Record, liner: Liner, rounds: int, n: int) -> f
         + SINGLE * (record.spectrum_rounds or 0) * samples / 2
         + DOUBLE * rounds * samples * len(record.chord)
         + DOUBLE * ((record.states_rounds or 0) * samples * n + n**2)
+        + SINGLE * (record.spectrum_rounds or 1) * samples * len(record.grids)
     )
     u_r = record.rounds_of_u_r(rounds) * samples * (1 + len(record.chord))
     marched = DOUBLE * (2 * rods + u_r + 2 * record.rounds_of_states * samples * n)

@@ -26,6 +26,7 @@ from geometry.project import (
 )
 from geometry.stored import read, write
 from rom.model import Rom
+from rom.polynomial import evaluate
 from simulate.contact.places import SHARES
 from simulate.errors.accuracy import Choice
 from simulate.errors.loads import torque_of_rounds
@@ -108,6 +109,10 @@ VARIABLES = {  # of each run: dimensions beside the speed, unit, meaning
     "force_tangential_mean": ("round share", "N", "mean t_T, against the rotation"),
     "torque": ("round", "N m", "mean torque on the rotor in a revolution, against the rotation"),
     "motion": ("motion_time dof", "m", "reduced displacements u in the last revolution"),
+    "gauge_strain": ("gauge gauge_time", "1", "strain of the vibration along a gauge"),
+    "gauge_stress": ("gauge gauge_time", "Pa", "stress of the vibration along a gauge"),
+    "gauge_strain_static": ("gauge", "1", "strain of rotation along a gauge; total: their sum"),
+    "gauge_stress_static": ("gauge", "Pa", "stress of rotation along a gauge; total: their sum"),
     "envelope": ("window bound", "m", f"range of u_r at xi = 1/16 in each 1/{WINDOWS} revolution"),
     "departure": (
         "observable",
@@ -132,6 +137,8 @@ COORDINATES = {  # dimensions, unit, meaning
     "round": ("round", "1", "number of the revolution"),
     "share": ("share", "1", "middle of the eighth of the chord"),
     "motion_time": ("motion_time", "1", "revolutions since the start"),
+    "gauge": ("gauge", "", "grid of a strain gauge"),
+    "gauge_time": ("gauge_time", "1", "revolutions since the start"),
     "window": ("window", "1", "revolutions since the start, middle of a window"),
     "bound": ("bound", "1", "end of the range"),
     "energy": ("energy", "", ENERGIES + "{of_friction}"),
@@ -144,6 +151,7 @@ RECORDED = {  # by the key of the scene's record that asks for them
     "spectrum_rounds": ("spectrum", "largest"),
     "history": ("history",),
     "states_rounds": ("states", "P"),
+    "gauges": tuple(f"gauge_{of}{part}" for of in ("strain", "stress") for part in ("", "_static")),
 }
 END = "end_"  # of the variables that hold the end of a run
 OF_LEFT = {  # dimensions of each field of ``Left`` that is an array
@@ -212,7 +220,11 @@ def save(dataset: xr.Dataset, path: str | Path) -> None:
         When it cannot be written.
     """
     dated = dataset.assign_attrs(date_created=datetime.now(UTC).isoformat(timespec="seconds"))
-    packed = {name: {"zlib": True, "complevel": 1} for name, v in dataset.items() if v.ndim > 1}
+    packed = {
+        name: {"zlib": True, "complevel": 1}
+        for name, v in dataset.items()
+        if v.ndim > 1 and "gauge_time" not in v.dims  # noise, which takes longer than the runs
+    }
     write(dated, path, packed)
 
 
@@ -490,6 +502,7 @@ def _asked_for(run: Run) -> dict[str, Any]:
         (record.states_rounds, _of_states),
         (record.contact_force, _of_forces),
         (record.motion, _of_motion),
+        (record.gauges, _of_gauges),
         (scene.contact.friction, _of_friction),
         (isinstance(scene.liner.law, Table), _of_curve),
     )
@@ -545,6 +558,21 @@ def _of_forces(run: Run) -> dict[str, Any]:
     if not scene.no_torque:
         values["torque"] = torque_of_rounds(scene, run.rom, outcome)
     return values
+
+
+def _of_gauges(run: Run) -> dict[str, Any]:
+    """Strain and stress along gauges: of the vibration over time, and of rotation."""
+    strain, stress = np.split(run.outcome.gauges.T.astype(np.float32), 2)
+    static = evaluate(run.rom.gauge_rows, run.setup.Omega)[..., 0]
+    rounds, times = run.scene.record.spectrum_rounds or 1, strain.shape[1]
+    return {
+        "gauge": [*run.scene.record.grids],
+        "gauge_time": run.scene.rounds - rounds + np.arange(1, times + 1) * rounds / times,
+        "gauge_strain": strain,
+        "gauge_stress": stress,
+        "gauge_strain_static": static[0],
+        "gauge_stress_static": static[1],
+    }
 
 
 def _of_motion(run: Run) -> dict[str, Any]:

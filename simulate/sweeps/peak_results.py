@@ -36,7 +36,7 @@ from simulate.errors.observables import Numbers, numbers
 from simulate.errors.run import Case, as_long
 from simulate.errors.signals import gaps_at_ends, leading_wear, lobe_count
 from simulate.marching import SENSITIVE_FROM, WITH_RESULT, prepare
-from simulate.scene import Scene
+from simulate.scene import OF_LAST_ROUNDS, Scene
 from simulate.sweeps.before import before
 from simulate.sweeps.dataset import course, scene_of, statuses
 from simulate.sweeps.peak import Peak, along_order, crossing, reported
@@ -135,7 +135,7 @@ def to_march(runs: xr.Dataset) -> Scene:
 
     It has the step, rods and strips that a sweep with an accuracy was run with.
     """
-    unused = dict.fromkeys(("history", "states_rounds", "motion"))
+    unused = dict.fromkeys(OF_LAST_ROUNDS)
     record = unused | {"contact_force": True, "end": False}
     return scene_of(runs).but(twin=False, halving=False, peaks=None, record=record)
 

@@ -7,7 +7,7 @@ import pytest
 from refused import refused
 
 from geometry.blade import Frame, SourceFile
-from geometry.frame import rotation, to_blade
+from geometry.frame import rotation, to_blade, to_file
 from geometry.project import MeshError
 
 AXES = ["x", "-x", "y", "-y", "z", "-z"]
@@ -46,6 +46,16 @@ def test_any_frame_brings_the_blade_back():
     for frame in FRAMES:
         in_file = BLADE @ rotation(frame)  # x = R^T x', for rows
         np.testing.assert_array_equal(to_blade(in_file, source(frame)), BLADE)
+
+
+def test_what_is_in_the_frame_goes_back_to_the_file():
+    """Points, and displacements of several nodes in a row."""
+    for frame in FRAMES:
+        given = source(frame, unit="mm")
+        in_file = BLADE @ rotation(frame) * 1e3
+        np.testing.assert_allclose(to_file(to_blade(in_file, given), given), in_file, rtol=1e-15)
+        rows = np.stack([BLADE.ravel(), 2 * BLADE.ravel()])
+        np.testing.assert_allclose(to_file(rows, given)[1], 2 * in_file.ravel(), rtol=1e-15)
 
 
 @pytest.mark.parametrize(

@@ -188,7 +188,7 @@ def test_hard_contact_is_sensitive_whatever_the_step(coarse_rom, hard):
     assert set(runs.status.values) == {"sensitive"}
     assert runs.departure.sel(observable="wear").min() > 3 * SENSITIVE_FROM
     assert np.isfinite(runs.spectrum).all() and runs.spectrum.max() > 0
-    assert largest_state(runs)[0]["status"] == "sensitive"
+    assert largest_state(runs)[1] > 0
     coarser = scene(**HARD, record=RECORD, integrator__fraction_of_limit=0.4)
     setup = set_up(coarser, coarse_rom, 0.335)
     coarser = coarser.but(twin=True)

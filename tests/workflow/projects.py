@@ -83,7 +83,8 @@ def make_project(folder: Path) -> Project:
         project.edit(f"workflow/scenes/paper-{coating}.yaml", _close_in_no_further)
     project.edit("workflow/scenes/peak-e1.yaml", _at_one_speed)
     project.edit("workflow/scenes/one-percent.yaml", _at_speeds_of_base)
-    project.edit("workflow/config.yaml", lambda config: config.update(blocks=2))
+    scenes = ["paper-e1", "paper-e10", "peak-e1"]  # of two speeds or one, with states
+    project.edit("workflow/config.yaml", lambda config: config.update(blocks=2, scenes=scenes))
     return project
 
 

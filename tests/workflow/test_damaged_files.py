@@ -62,7 +62,7 @@ def readers(project, coarse_blade) -> dict[Path, Callable[[Path], Any]]:
 
     def fields_of_peak(path):
         grid = views.read_fields(path)
-        return grid.points, grid["von Mises (Pa)"]
+        return grid.points, grid["away from clamp and contact"]
 
     def check(path):
         found = RomCheck.load(path)
@@ -86,8 +86,8 @@ def readers(project, coarse_blade) -> dict[Path, Callable[[Path], Any]]:
         blade / "paper-e1/block-0.nc": sweep,
         blade / "paper-e1/sweep.nc": sweep,
         peak / "sweep.nc": sweep,
-        peak / "peak.vtu": fields_of_peak,
-        peak / "peak.json": read_json,
+        peak / "stress.vtu": fields_of_peak,
+        peak / "stress.json": read_json,
         blade / "runs.nc": design_runs.load,
         blade / "rows.nc": design_runs.load,
     }

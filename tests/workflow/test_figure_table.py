@@ -23,7 +23,9 @@ def scene(blade="thin", design=None, gaps="running", count=9, touches=True, **re
         until=None,
         speeds=Made(count=count),
         liner=Made(law=Made(touches=touches)),
-        record=Made(**{"wear": False, "spectrum_rounds": 10, "states_rounds": 0} | record),
+        record=Made(
+            **{"wear": False, "spectrum_rounds": 10, "states_rounds": 0, "gauges": None} | record
+        ),
     )
 
 
@@ -87,18 +89,37 @@ def test_a_figure_marks_the_operating_speeds_of_its_blade():
 @pytest.mark.parametrize(
     ("configured", "delivered"),
     [
-        (["soft"], ["campbell-thin", "modes-thin", "spectra-soft", "loads-thin", "haigh-soft"]),
+        (
+            ["soft"],
+            [
+                "campbell-thin",
+                "modes-thin",
+                "spectra-soft",
+                "loads-thin",
+                "haigh-soft",
+                "stress-soft",
+            ],
+        ),
         (["free"], ["spectra-free"]),
         (["drawn"], ["campbell-thin", "modes-thin", "design-drawn", "sensitivity-drawn"]),
         (["listed"], ["campbell-thin", "modes-thin", "design-listed"]),
         (
             ["paper-e1"],
-            ["fig03", "fig09", "fig10a", "loads-reference", "haigh-paper-e1", "fig11a"],
+            [
+                "fig03",
+                "fig09",
+                "fig10a",
+                "loads-reference",
+                "haigh-paper-e1",
+                "stress-paper-e1",
+                "fig11a",
+            ],
         ),
         (
             ["paper-e1", "paper-e10"],
             [
                 *("fig03", "fig09", "fig10a", "fig10b", "loads-reference"),
+                *("haigh-paper-e1", "haigh-paper-e10", "stress-paper-e1", "stress-paper-e10"),
                 *("fig11a", "fig11b", "fig12"),
             ],
         ),
@@ -112,7 +133,7 @@ def test_a_plain_run_delivers_what_its_scenes_have(configured, delivered):
 @pytest.mark.parametrize(
     ("name", "wildcards", "file", "key"),
     [
-        ("stress-{scene}", {"scene": "soft"}, "workflow/scenes/soft.yaml", "record.states_rounds"),
+        ("stress-{scene}", {"scene": "free"}, "workflow/blades/given.yaml", ""),
         ("gap-{scene}", {"scene": "soft"}, "workflow/scenes/soft.yaml", "clearance.at"),
         ("sensitivity-{scene}", {"scene": "soft"}, "workflow/scenes/soft.yaml", "design"),
         ("modes-{blade}", {"blade": "given"}, "workflow/blades/given.yaml", ""),

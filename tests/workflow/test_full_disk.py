@@ -94,8 +94,7 @@ def made_fields() -> Fields:
     points = np.random.default_rng(1).normal(size=(2000, 3))
     tensor = points[:, :, None] * np.ones(3)
     of = Stress(tensor, tensor, 1.0)
-    cells, settled = np.arange(2000).reshape(-1, 10), np.ones(2000, bool)
-    return Fields(points, cells, points, points, of, of, settled)
+    return Fields(points, np.arange(2000).reshape(-1, 10), points, points, of, of)
 
 
 def drawn() -> Figure:

@@ -71,6 +71,11 @@ def test_foreign_model_without_the_direction_of_the_scene_is_refused(project):
     ("change", "explored", "said"),
     [
         ({"record": {"states_rounds": 1}}, "", "record.states_rounds: blade 'foreign' is"),
+        (
+            {"record": {"gauges": [{"name": "a", "at": [1, 0, 0], "direction": [1, 0, 0]}]}},
+            "",
+            "record.gauges: blade 'foreign' is",
+        ),
         ({"record": {}}, "mine", "explore: blade 'foreign' is"),
     ],
 )

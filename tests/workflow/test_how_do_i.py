@@ -14,7 +14,7 @@ PAGE = (ROOT / "workflow/how-do-i.md").read_text()
 FILES = dict(re.findall(r"```yaml\n# (\S+)\n(.*?)```", PAGE, re.DOTALL))
 PYTHON = re.findall(r"```python\n(.*?)```", (ROOT / "README.md").read_text() + PAGE, re.DOTALL)
 NAMES = [path.split("/")[-1].removesuffix(".yaml") for path in FILES if "/scenes/" in path]
-OF_REFERENCE = ("my-run-up", "my-liner", "my-orbit", "my-casing")
+OF_REFERENCE = ("my-run-up", "my-liner", "my-orbit", "my-casing", "my-gauges")
 SCENES = f"scenes=[{', '.join(NAMES)}]"
 
 
@@ -33,7 +33,7 @@ def test_the_first_page_shows_what_the_terminal_prints_of_the_first_scene(projec
 
 
 def test_the_page_has_over_a_dozen_recipes():
-    assert len(re.findall(r"^## \.\.\. .*\?$", PAGE, re.MULTILINE)) == 13
+    assert len(re.findall(r"^## \.\.\. .*\?$", PAGE, re.MULTILINE)) == 14
 
 
 def test_files_of_the_page_are_planned(with_files):
@@ -54,7 +54,19 @@ def test_files_of_the_page_give_results(with_files):
         "results/reference/my-table/design.csv",
         "results/figures/design-my-table.png",
         "results/figures/campbell-my-engine.png",
+        "results/reference/my-gauges/gauges.csv",
+        "results/figures/gauges-my-gauges.png",
     )
+    with xr.open_dataset(
+        with_files.folder / "results/reference/my-gauges/sweep.nc", engine="h5netcdf"
+    ) as runs:
+        grids, rounds = ["root", "mid-0", "mid-45", "mid-90"], 2
+        assert runs["gauge"].values.tolist() == grids
+        assert runs["gauge_strain"].shape == (3, 4, rounds * 128)
+        strain, stress = (abs(runs[f"gauge_{of}_static"]).max() for of in ("strain", "stress"))
+        assert 1e-5 < strain < 2e-3 and 1e6 < stress < 2e8
+    lines = (with_files.folder / "results/reference/my-gauges/gauges.csv").read_text().splitlines()
+    assert len(lines) == 1 + 3 * len(grids) and "static strain (µε)" in lines[0]
 
 
 @pytest.mark.parametrize("code", PYTHON, ids=range(len(PYTHON)))

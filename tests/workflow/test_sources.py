@@ -110,7 +110,12 @@ TARGETS = [
     *("results/interface/interface.md", "results/foreign/foreign/sweep.nc"),
     "results/experiments/interface/picture.png",
     *("results/matrices/rom-check-r.nc", "results/paper/conclusions.md"),
+    *("results/reference/gauged/gauges.csv", "results/figures/gauges-gauged.png"),
 ]
+GAUGED = """
+base: paper-e1
+record: {gauges: [{name: root, at: [440, 1.8, 0], direction: [1, 0, 0]}]}
+"""
 # Writes a job of each rule: its function, what that loads by name, what it holds, its code.
 HOOK = """
 def write_jobs():
@@ -146,6 +151,7 @@ def jobs(tmp_path_factory):
     (blades / "matrices.yaml").write_text(text)
     for file in check_settings(GivenMatrices, yaml.safe_load(text), "").files:
         (blades / file).touch()
+    (project.folder / "workflow/scenes/gauged.yaml").write_text(GAUGED)
     project.run("-n", *TARGETS)
     return read_json(project.folder / "jobs.json")
 

@@ -12,8 +12,6 @@ import numpy as np
 import pytest
 from projects import ROOT, SPEEDS, Project, make_project
 
-from fem.matrices import Matrices
-from geometry.hats import hats
 from geometry.project import read_json, write_json
 from rom.check import RomCheck
 from rom.model import Rom
@@ -45,9 +43,9 @@ def test_end_to_end_delivers_models_sweeps_and_figures(project):
         assert f"Rub of reference, {scene}" in page and '"shapes"' in page
     stems = {path.stem for path in (project.folder / "results/figures").iterdir()}
     assert stems >= {"fig03", "fig09", "fig10a", "fig10b", "fig11a", "fig11b", "fig12"}
-    assert stems >= {"stress-peak-e1", "loads-reference", "haigh-paper-e1"}
-    # a scene without states has no job for them, nothing is left half made, nothing is to be done
-    assert not (project.folder / BLADE / "paper-e1/peak.vtu").exists() and "states" not in sweep
+    assert stems >= {"stress-paper-e1", "loads-reference", "haigh-paper-e1"}
+    # nothing is left half made, nothing is to be done
+    assert "states" not in sweep
     assert list((project.folder / "results").rglob(".*")) == []
     assert project.planned() == {}
 
@@ -96,29 +94,6 @@ def test_a_change_of_settings_is_shown_by_a_hash(touched):
     said = touched.run("-n", "sweeps")
     (reason,) = {line for line in said.splitlines() if "Params have changed" in line}
     assert len(reason) < 400 and "before: settings " in reason
-
-
-@pytest.mark.slow
-def test_the_peak_is_the_largest_displacement_beyond_the_gap(project):
-    """The displacement of its file at the place that it names is that of the sweep."""
-    folder = project.folder / BLADE / "peak-e1"
-    numbers = read_json(folder / "peak.json")
-    sweep = load(folder / "sweep.nc").isel(speed_over_f1=0)
-    radial = sweep["states"] @ sweep["P"]
-    strip = int(np.flatnonzero(sweep["xi"] == numbers["xi"])[0])
-    beyond = numbers["u_r_m"] - float(sweep["gap"][strip])
-    assert beyond == pytest.approx(float((radial - sweep["gap"]).max()), rel=1e-9)
-    there = radial.sel(time=numbers["time_rounds"]).isel(strip=strip)
-    assert numbers["u_r_m"] == pytest.approx(float(there), rel=1e-9)
-    mesh = meshio.read(folder / "peak.vtu")
-    fom = Matrices.load(project.folder / BLADE / "matrices.h5")
-    nodes = [np.linalg.norm(mesh.points - at, axis=1).argmin() for at in fom.coordinates]
-    c = fom.rows(1) @ mesh.point_data["vibration (m)"][nodes].ravel()
-    # mesh nodes are at the same places to 1e-9 m
-    (outward,) = hats(numbers["xi"], fom.xi) @ c
-    assert outward == pytest.approx(numbers["u_r_m"], rel=1e-6)
-    assert numbers["von_mises"]["largest_Pa"] == mesh.point_data["von Mises (Pa)"].max()
-    assert numbers["von_mises_of_prestress"]["largest_Pa"] > 1e7
 
 
 @pytest.mark.slow
@@ -263,13 +238,12 @@ CHANGES = {
 ALONE = {
     "workflow/figures/loads.py": {"draw_loads_blade": 1},
     "fem/fields.py": {
-        "draw_stress_scene": 1,
+        "draw_stress_scene": 3,
         "draw_haigh_scene": 3,
         "stress": 3,
         "explore": 2,
         "draw_loads_blade": 1,
         "summary": 1,
-        "peak": 1,
     },
 }
 
@@ -382,13 +356,13 @@ def test_a_file_of_geometry_that_is_missing_is_refused_and_one_elsewhere_is_not(
 
 @pytest.mark.slow
 def test_what_cannot_be_made_is_refused_in_a_sentence_before_any_job(tmp_path):
-    """States that are not recorded; a Snakefile that is started from elsewhere."""
+    """Stresses of a design; a Snakefile that is started from elsewhere."""
     (tmp_path / "project").mkdir()
     project = make_project(tmp_path / "project")
     elsewhere = Project(tmp_path)
     sentences = {
-        f"{E1}: record.states_rounds: missing; ": project.run(
-            f"{BLADE}/paper-e1/peak.vtu", expect=1
+        "workflow/scenes/five-factors.yaml: without the motion ": project.run(
+            f"{BLADE}/five-factors/stress.json", expect=1
         ),
         f"{tmp_path}: no workflow/config.yaml; start in the folder of a project": elsewhere.run(
             "-s", str(project.folder / "Snakefile"), expect=1

@@ -18,9 +18,10 @@ from geometry.blade import Blade
 from geometry.project import UserError
 from geometry.tetrahedra import exterior
 from rom.model import Rom
+from rom.polynomial import evaluate
 from rom.reconstruct import Basis
 from workflow.explore.page import LARGEST
-from workflow.stress import Motion, Stresses, motion
+from workflow.stress import Motion, motion, stresses
 
 MEGA = 1e-6
 SHAPES = 6  # of the motion at all speeds
@@ -50,7 +51,7 @@ def moving(
             "take the scene out of `explore`, or a coarser mesh"
         )
     found = motion(sweep, rom.M, SHAPES)
-    stresses = Stresses.of(solid, basis, found.shapes, blade.prestress).on(nodes)
+    sigma = MEGA * stresses(solid, basis, found.shapes, blade.prestress)[:, :, nodes]
     order = dofs_at(basis.coordinates, solid.free_coordinates()).ravel()
     displaced = map(solid.field, (basis.T @ found.shapes)[order].T)
     arrays = {
@@ -58,8 +59,8 @@ def moving(
         "triangles": numbered.reshape(-1, 3).astype(float),
         "shapes": np.array([u.x.array.reshape(-1, 3)[nodes] for u in displaced]),
         "a": found.a,
-        "static": MEGA * stresses.static,
-        "of_shapes": MEGA * stresses.at(0.5)[1],
+        "static": sigma[:, 0],
+        "of_shapes": evaluate(sigma, 0.5)[1:],
     }
     return _facts(found, sweep, rom), arrays | _liner(sweep, rom)
 

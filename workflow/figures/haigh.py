@@ -1,7 +1,6 @@
 """Haigh diagram: mean and alternating stress at every speed, under the strength of the blade."""
 
 from collections.abc import Mapping
-from itertools import cycle
 from typing import Any
 
 import numpy as np
@@ -12,7 +11,6 @@ from geometry.blade import Fatigue
 from workflow.figures import style
 
 POINTS = 401  # of the line
-OFFSETS = ((-24, 0), (4, -7), (4, 3))  # of labels in turn, points of type: near peaks stay legible
 
 
 @style.styled
@@ -24,24 +22,30 @@ def draw(stress: Mapping[str, Any], answers: Mapping[str, Any]) -> Figure:
     fatigue = Fatigue.model_validate(stress["fatigue"])
     mean = np.linspace(-fatigue.yield_MPa, fatigue.ultimate_MPa, POINTS)
     mean = np.union1d(mean, [fatigue.endurance_MPa - fatigue.yield_MPa, 0.0])  # its corners
-    known = {row["speed_over_f1"]: row for row in stress["speeds"] if "margin" in row}
+    rows = [row for row in stress["speeds"] if "margin" in row]
     places = {
-        at: (row["mean_stress"] / MEGA, row["alternating"] / MEGA) for at, row in known.items()
+        row["speed_over_f1"]: (row["mean_stress"] / MEGA, row["alternating"] / MEGA) for row in rows
     }
     drawn, (whole, near) = style.subplots(style.DOUBLE, 2.8, 1, 2, letters=True)
     of_all = np.array([*places.values()]).reshape(-1, 2).T
-    line = f"{fatigue.line.capitalize()} line, and yield"
-    whole.plot(mean, allowed(MEGA * mean, fatigue) / MEGA, color=style.BLACK, label=line)
+    whole.plot(
+        mean,
+        allowed(MEGA * mean, fatigue) / MEGA,
+        color=style.BLACK,
+        label=f"{fatigue.line.capitalize()} line, and yield",
+    )
     for axes in (near, whole):
         axes.plot(*of_all, "o", color=style.GREY, markersize=2.5, label="each speed")
+        axes.margins(0.12)  # for the names of peaks
         axes.set(xlabel="mean stress (MPa)", ylabel="alternating stress (MPa)", ylim=(0, None))
     peaks = [peak for peak in answers["peaks"] if peak["k"] and peak["Omega_c"] in places]
-    for peak, offset in zip(peaks, cycle(OFFSETS), strict=False):
+    for number, peak in enumerate(peaks):
         at = places[peak["Omega_c"]]
         near.plot(*at, "o", color=style.VERMILLION, markersize=3.5, label="peak")
-        style.note(near, at, f"EO {peak['k']}", offset)
+        style.note(near, at, f"EO {peak['k']}", (4, 4 - 8 * (number % 3)))  # apart
     style.legend(drawn, "lower center", ncols=3)
-    least = min((row["margin"] for row in known.values()), default=np.inf)
-    of = f"scene {stress['scene']}, blade {stress['blade']}"
-    drawn.suptitle(f"{of}: least margin {least:.3g}", fontsize=8)
+    least = min((row["margin"] for row in rows), default=np.inf)
+    drawn.suptitle(
+        f"scene {stress['scene']}, blade {stress['blade']}: least margin {least:.3g}", fontsize=8
+    )
     return drawn

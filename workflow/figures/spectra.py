@@ -1,16 +1,22 @@
-"""Spectra of the displacement at xi = 1/16: over the speed, and over the time at a peak."""
+"""Spectra of the displacement at xi = 1/16: over the speed, and over the time at a peak.
+
+And of the strain along a gauge over the speed, as a rig shows it; all gauges as a table.
+"""
 
 from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
+import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from matplotlib.ticker import MultipleLocator
 from numpy.typing import NDArray
 
-from simulate.errors.signals import mode_share, spectrogram
+from geometry.blade import RPM
+from simulate.errors.signals import mode_share, spectrogram, spectrum
+from simulate.sweeps.dataset import SPEED, Sweep
 from simulate.sweeps.peak import Peak, along_order, crossing
 from workflow.figures import style, units
 from workflow.figures.marks import (
@@ -46,24 +52,31 @@ WINDOW = 2  # revolutions, of a spectrum
 SLICES = 16  # spectra per revolution
 AMPLITUDES = 1e-4, 1.0  # gaps, ends of their scale
 TITLES = ("without tangential force", "with tangential force")
+STRAIN = 1e-5  # in place of the gap, over which amplitudes of strain are drawn
+SHOWN_STRAIN = 5.0  # f / f1(0), highest in its map
 APART = 0.055  # least distance of two labels, over the axes' height
 
 
 @style.styled
 def over_speeds(
-    sweep: Response, printed: str | None = None, operating: Mapping[str, Any] = NO_LINES
+    sweep: Response,
+    printed: str | None = None,
+    operating: Mapping[str, Any] = NO_LINES,
+    label: str = LABEL,
+    highest: float = SHOWN,
 ) -> Figure:
     """Map of amplitude over frequency and speed; below, amplitude along the engine orders.
 
     ``printed``: part of the paper whose critical speeds are marked, as of ``CRITICAL``;
-    ``operating``: as of ``simulate.sweeps.peak.critical``.
+    ``operating``: as of ``simulate.sweeps.peak.critical``; ``label``: of the amplitude;
+    ``highest``: frequency over f1(0) in the map.
     """
     drawn, (top, bottom) = style.subplots(
         style.DOUBLE, 5.5, 2, letters=True, sharex=True, height_ratios=(1.8, 1)
     )
     scale = sweep.units["length"][0].scale
     scale = style.decades(scale * np.nanmax(sweep.spectrum[:, 1:], initial=0), DECADES)
-    _map(top, sweep, scale)
+    _map(top, sweep, scale, label, highest)
     _overlay(top, sweep)
     _amplitudes(bottom, sweep, printed)
     bottom.set_ylim(scale)
@@ -76,17 +89,19 @@ def over_speeds(
     return drawn
 
 
-def _map(axes: Axes, response: Response, scale: tuple[float, float]) -> None:
+def _map(
+    axes: Axes, response: Response, scale: tuple[float, float], label: str, highest: float
+) -> None:
     """Draw cells bounded by engine orders: the response along an order lies on its line."""
     orders = np.arange(response.spectrum.shape[1]) / response.scene.record.spectrum_rounds
-    bins = int(np.searchsorted(orders, SHOWN / response.speeds[0])) + 1
+    bins = int(np.searchsorted(orders, highest / response.speeds[0])) + 1
     speeds, amplitudes = style.over_speeds(response.speeds, response.spectrum[:, :bins])
     orders = style.edges(orders[:bins])
     across = np.broadcast_to(speeds[:, None], (len(speeds), len(orders)))
     unit, _ = response.units["length"]
-    bar = {"label": f"{LABEL} {unit.label}", "extend": "both", "pad": 0.0, "aspect": 30}
+    bar = {"label": f"{label} {unit.label}", "extend": "both", "pad": 0.0, "aspect": 30}
     style.log_map(axes, across, np.outer(speeds, orders), unit.scale * amplitudes, scale, **bar)
-    axes.set(ylim=(0, SHOWN), xlim=style.limits(response.speeds))
+    axes.set(ylim=(0, highest), xlim=style.limits(response.speeds))
 
 
 def _overlay(axes: Axes, response: Response) -> None:
@@ -156,6 +171,41 @@ def _name(axes: Axes, response: Response, peak: Peak) -> None:
         fontsize=7,
         arrowprops={"arrowstyle": "-", "linewidth": 0.4, "color": style.GREY, "shrinkA": 0},
     )
+
+
+class Strain(Response):
+    """A sweep whose spectra are of the strain along a gauge, over ``STRAIN``."""
+
+    @property
+    def units(self) -> dict[str, tuple[units.Unit, units.Unit]]:
+        """As of ``Response``, for lengths strains."""
+        shown = units.Unit(units.MICRO * STRAIN, "(µε)"), units.Unit(100 * STRAIN, "(%)")
+        return super().units | {"length": shown}
+
+
+def of_gauge(sweep: Response, operating: Mapping[str, Any] = NO_LINES) -> Figure:
+    """As ``over_speeds``, of the strain along the first grid by the vibration."""
+    first = sweep.sweep["gauge_strain"].isel(gauge=0)
+    amplitudes = (SPEED, "bin"), [spectrum(of) for of in first.values]
+    strains = sweep.sweep.assign(spectrum=amplitudes).assign_attrs(gap_m=STRAIN)
+    look = {"label": f"strain, gauge {first['gauge'].item()}", "highest": SHOWN_STRAIN}
+    return over_speeds(Strain(strains, sweep.rom), operating=operating, **look)
+
+
+def gauges_csv(sweep: Sweep) -> str:
+    """A line for each speed and grid: of rotation, largest and least in all, half of the range."""
+    found = {"speed (rpm)": RPM * sweep["speed"], "status": sweep["status"]}
+    for name, unit, scale in (("strain", "µε", units.MICRO), ("stress", "MPa", 1 / units.MICRO)):
+        static, moving = (scale * sweep[f"gauge_{name}{of}"] for of in ("_static", ""))
+        highest, least = moving.max("gauge_time"), moving.min("gauge_time")
+        found |= {
+            f"static {name} ({unit})": static,
+            f"largest {name} ({unit})": static + highest,
+            f"least {name} ({unit})": static + least,
+            f"vibratory {name} ({unit})": (highest - least) / 2,
+        }
+    table = xr.Dataset(found).reset_coords(drop=True)
+    return table.to_dataframe([SPEED, "gauge"]).to_csv(float_format="%.6g")
 
 
 @style.styled

@@ -27,7 +27,7 @@ def read_mesh(path: str | Path) -> meshio.Mesh:
 
 
 def read_fields(path: str | Path) -> pv.UnstructuredGrid:
-    """Read a blade with fields at its nodes, ``peak.vtu``."""
+    """Read a blade with fields at its nodes, ``stress.vtu``."""
     return pv.read(intact(path))
 
 

@@ -15,7 +15,7 @@ from workflow.summary import panel
 
 
 def write(
-    blade: str,
+    blade: Blade,
     mesh: str,
     rom: str,
     basis: str,
@@ -30,12 +30,11 @@ def write(
 
     ``operating``: as of ``simulate.sweeps.peak.critical``.
     """
-    response, of_basis = Response.read(sweep, rom), Basis.load(basis)
-    of_basis.provenance.require(origin(response.sweep), basis)
+    response = Response.read(sweep, rom)
+    of_basis = Basis.load(basis, origin(response.sweep))
     motion, of_blade = None, {}
     if "motion" in response.sweep:
-        settings = Blade.load(blade)
-        motion, of_blade = moving(settings, mesh, of_basis, response.sweep, response.rom)
+        motion, of_blade = moving(blade, mesh, of_basis, response.sweep, response.rom)
     found = operating and critical(response.rom, operating)
     told = panel(read_json(answers), found, stress)
     shown = facts(response, names["blade"], names["scene"]) | {

@@ -13,7 +13,7 @@ from workflow.paper.measure import Numbers
 
 
 def settled(
-    rom: Rom, densities: list[Sweep], steps: list[Sweep], peak: Numbers, scene: Scene
+    rom: Rom, densities: list[Sweep], steps: list[Sweep], stress: Numbers, scene: Scene
 ) -> Numbers:
     """Numbers that do not depend on the coatings: densities, steps, laws, cost, stress."""
     return {
@@ -21,7 +21,7 @@ def settled(
         "steps": measure.steps(steps),
         "density_cost": measure.density_cost(scene, rom),
         "laws": slopes_over_closed_form(),
-        "stress": measure.stress(peak),
+        "stress": measure.stress(stress),
     }
 
 

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
 
+from geometry.blade import SOURCES
 from geometry.given import GIVEN, GivenMatrices, GivenModel, read_blade
 from geometry.project import SettingsError, fingerprint, sources_of, yaml_file
 from rom.speeds import basis_speeds, check_speeds
@@ -102,12 +103,15 @@ def scene_settings(name):
     require_blade(name, scene)
     if scene.start:
         require_start(name, scene.start.scene, scene.blade)
-    explored = name in EXPLORED and scene.blade not in MESHED
-    if explored or (scene.blade in FOREIGN and scene.record.states_rounds):
-        key = "explore" if explored else "record.states_rounds"
+    without_mesh = {
+        "explore": name in EXPLORED and scene.blade not in MESHED,
+        "record.states_rounds": scene.blade in FOREIGN and scene.record.states_rounds,
+        "record.gauges": scene.record.gauges and scene.blade not in MESHED,
+    }
+    for key in (key for key, refused in without_mesh.items() if refused):
         raise WorkflowError(
             f"{scene_file(name)}: {key}: blade {scene.blade!r} is a model or matrices from elsewhere, "
-            f"without the mesh that pictures of the whole blade need: take it out"
+            f"without the mesh that pictures of the whole blade and gauges need: take it out"
         )
     if name in EXPLORED and scene.clearance.at_rest:
         raise WorkflowError(
@@ -362,31 +366,40 @@ def delivered(wildcards):
     return [
         *of_scenes("results/{blade}/{scene}/sweep.nc"),
         *of_designs(),
+        *(
+            f"results/{of.blade}/{name}/gauges.csv"
+            for name, of in SWEEPS.items()
+            if of.record.gauges
+        ),
         *all_figures(),
         *(f"results/{SCENES[name].blade}/{name}/explore.html" for name in EXPLORED),
         *([SUMMARY] if SWEEPS else []),
     ]
 
 
-def rom_of_scene(wildcards):
+def rom_with_directions(wildcards):
     """The reduced model with the interface directions that the scene needs."""
     return f"results/{wildcards.blade}/rom-{SCENES[wildcards.scene].directions}.nc"
+
+
+def rom_of_scene(wildcards):
+    """The same; of a scene with strain gauges, with what they read."""
+    gauges = f"results/{wildcards.blade}/{wildcards.scene}/gauges.nc"
+    return gauges if SCENES[wildcards.scene].record.gauges else rom_with_directions(wildcards)
+
+
+def gauges_of_scene(wildcards):
+    """The strain gauges of a scene, as settings of its record."""
+    record = SCENES[wildcards.scene].record
+    if not record.gauges:
+        raise WorkflowError(f"{scene_file(wildcards.scene)}: record.gauges: missing")
+    return Told({"gauges": record.model_dump(mode="json")["gauges"]})
 
 
 def sweep_before(wildcards):
     """The sweep of the scene that a scene starts from."""
     scene = SCENES[wildcards.scene]
     return f"results/{scene.blade}/{scene.start.scene}/sweep.nc" if scene.start else []
-
-
-def sweep_with_states(wildcards):
-    """The sweep of a scene that records states."""
-    if not SCENES[wildcards.scene].record.states_rounds:
-        raise WorkflowError(
-            f"{scene_file(wildcards.scene)}: record.states_rounds: missing; peak.vtu shows one of the "
-            f"states: `record: {{states_rounds: 2}}` keeps them"
-        )
-    return f"results/{wildcards.blade}/{wildcards.scene}/sweep.nc"
 
 
 def stress_of_scene(wildcards):

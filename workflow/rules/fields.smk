@@ -1,29 +1,31 @@
-rule peak:
+rule gauges:
     input:
-        code=code_of("workflow.jobs.peak"),
+        code=code_of("workflow.jobs.gauges"),
         mesh="results/{blade}/blade.msh",
         basis=basis_of_scene,
-        sweep=sweep_with_states,
+        rom=rom_with_directions,
     output:
-        vtu="results/{blade}/{scene}/peak.vtu",
-        json="results/{blade}/{scene}/peak.json",
+        model="results/{blade}/{scene}/gauges.nc",
     log:
-        "results/{blade}/{scene}/logs/peak.log",
+        "results/{blade}/{scene}/logs/gauges.log",
     benchmark:
-        "results/{blade}/{scene}/benchmarks/peak.tsv"
+        "results/{blade}/{scene}/benchmarks/gauges.tsv"
+    wildcard_constraints:
+        blade=one_of(MESHED),
     params:
-        run="workflow.jobs.peak:write",
-        blade=blade_file,
-        uses=blade_uses("material", "prestress"),
+        run="workflow.jobs.gauges:place",
+        settings=blade_file,
+        uses=blade_uses("material", "prestress", *SOURCES),
+        record=gauges_of_scene,
     message:
-        "Displacement and stress of scene {wildcards.scene} when the tip exceeds the gap most"
+        "What the strain gauges of scene {wildcards.scene} read"
     script:
         "../scripts/job.py"
 
 
 rule stress:
     input:
-        code=code_of("workflow.jobs.stress"),
+        code=code_of("workflow.stress"),
         mesh="results/{blade}/blade.msh",
         rom=rom_of_scene,
         basis=basis_of_scene,
@@ -36,7 +38,7 @@ rule stress:
     benchmark:
         "results/{blade}/{scene}/benchmarks/stress.tsv"
     params:
-        run="workflow.jobs.stress:write",
+        run="workflow.stress:write",
         blade=blade_file,
         uses=blade_uses("material", "prestress", "fatigue"),
     message:

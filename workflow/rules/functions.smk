@@ -182,7 +182,7 @@ BEYOND = ("long-20", "long-200", "long-2000", "run-up", "run-down", "on-worn")
 
 def folders_of_targets(wildcards):
     """Folders with the benchmarks of the jobs of each target."""
-    swept = [*(f"paper-{name}" for name in (*SWEPT, *OTHERS)), "peak-e1", *BEYOND]
+    swept = [*(f"paper-{name}" for name in (*SWEPT, *OTHERS)), *BEYOND]
     folders = {
         "blade, mesh, reduced models": ["reference", "reference-paper"],
         "paper": ["paper", "experiments/grid", *(f"reference/{name}" for name in swept)],

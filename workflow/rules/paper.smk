@@ -12,7 +12,7 @@ rule paper:
             for name, row in FIGURES.rows.items()
             if row.category == "The paper" or name.startswith("fig")
         ),
-        pictures(["stress-peak-e1"]),
+        pictures(["stress-paper-e10"]),
 
 
 rule paper_uncertainty:

@@ -92,13 +92,13 @@ def at_peak(scene: Scene, prestress: str, solid: Solid, fom: Matrices, rom: Rom,
     """
     strips = max(scene.liner.m, len(rom.xi))
     case = scene.but(blade=rom.provenance.blade, liner__strips=strips)
-    state, u = largest_state(sweep(case, rom))
+    Omega, u_r, u = largest_state(sweep(case, rom))
     basis = Basis.of(fom, T, rom.provenance)
-    shown = on_solid(solid, basis.static(state["speed_rad_s"]), basis.reconstruct(u), prestress)
+    shown = on_solid(solid, basis.static(Omega), basis.reconstruct(u), prestress)
     of, inside = shown.total.von_mises, away(solid, *WIDTHS)
     return {
         "away_Pa": float(of[inside].max()),
         "away_at_m": shown.points[inside][of[inside].argmax()].tolist(),
         "largest_Pa": float(of.max()),
-        "u_r_m": state["u_r_m"],
+        "u_r_m": u_r,
     }
