@@ -11,6 +11,7 @@ from geometry.blade import Fatigue
 from workflow.figures import style
 
 POINTS = 401  # of the line
+NAMED = 4.0  # times the least margin, up to which peaks are named: others lie close together
 
 
 @style.styled
@@ -20,12 +21,12 @@ def draw(stress: Mapping[str, Any], answers: Mapping[str, Any]) -> Figure:
     ``stress``: as of ``stress.json``, whose worst node of each speed is a point.
     """
     fatigue = Fatigue.model_validate(stress["fatigue"])
-    mean = np.linspace(-fatigue.yield_MPa, fatigue.ultimate_MPa, POINTS)
-    mean = np.union1d(mean, [fatigue.endurance_MPa - fatigue.yield_MPa, 0.0])  # its corners
-    rows = [row for row in stress["speeds"] if "margin" in row]
-    places = {
-        row["speed_over_f1"]: (row["mean_stress"] / MEGA, row["alternating"] / MEGA) for row in rows
-    }
+    mean = np.union1d(  # with the corners of the line
+        np.linspace(-fatigue.yield_MPa, fatigue.ultimate_MPa, POINTS),
+        [fatigue.endurance_MPa - fatigue.yield_MPa, 0.0],
+    )
+    rows = {row["speed_over_f1"]: row for row in stress["speeds"] if "margin" in row}
+    places = {at: (of["mean_stress"] / MEGA, of["alternating"] / MEGA) for at, of in rows.items()}
     drawn, (whole, near) = style.subplots(style.DOUBLE, 2.8, 1, 2, letters=True)
     of_all = np.array([*places.values()]).reshape(-1, 2).T
     whole.plot(
@@ -38,13 +39,13 @@ def draw(stress: Mapping[str, Any], answers: Mapping[str, Any]) -> Figure:
         axes.plot(*of_all, "o", color=style.GREY, markersize=2.5, label="each speed")
         axes.margins(0.12)  # for the names of peaks
         axes.set(xlabel="mean stress (MPa)", ylabel="alternating stress (MPa)", ylim=(0, None))
-    peaks = [peak for peak in answers["peaks"] if peak["k"] and peak["Omega_c"] in places]
-    for number, peak in enumerate(peaks):
+    least = min((row["margin"] for row in rows.values()), default=np.inf)
+    for peak in [peak for peak in answers["peaks"] if peak["k"] and peak["Omega_c"] in rows]:
         at = places[peak["Omega_c"]]
         near.plot(*at, "o", color=style.VERMILLION, markersize=3.5, label="peak")
-        style.note(near, at, f"EO {peak['k']}", (4, 4 - 8 * (number % 3)))  # apart
+        if rows[peak["Omega_c"]]["margin"] < NAMED * least:
+            style.note(near, at, f"EO {peak['k']}", (4, 3))
     style.legend(drawn, "lower center", ncols=3)
-    least = min((row["margin"] for row in rows), default=np.inf)
     drawn.suptitle(
         f"scene {stress['scene']}, blade {stress['blade']}: least margin {least:.3g}", fontsize=8
     )
