@@ -307,7 +307,7 @@ def grid(
     ------
     SettingsError
         When the gauge is not on the surface, its direction is not along it, or a part of the grid
-        is where the stress does not converge.
+        leaves it or is where the stress does not converge.
     """
     cells, points = grid_of(solid)
     facets = exterior(cells)
@@ -329,6 +329,12 @@ def grid(
         (
             first @ direction <= LEAST * np.linalg.norm(direction),
             f"direction {[*gauge.direction]}: across the surface there; give one along it",
+        ),
+        (
+            np.linalg.norm(places - feet, axis=1).max() > FARTHEST
+            or (normals(facets[under], points) @ normal).min() <= 0.5,  # round an edge
+            f"length_mm {gauge.length_mm:g}: its grid leaves the surface; allowed shorter or "
+            "farther from the edge",
         ),
         (
             not away(solid, places=feet).all(),

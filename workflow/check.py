@@ -98,9 +98,11 @@ class Subject(NamedTuple):
         geometry.project.errors.UserError
             When it has not, or its model is another one now.
         """
-        if name not in (there := yaml_file.names("workflow/scenes")):
+        if name not in yaml_file.names("workflow/scenes"):
             raise SettingsError(
-                f"no workflow/scenes/{name}.yaml: there are {', '.join(there)}", key=name
+                f"no workflow/scenes/{name}.yaml; of these there are results: "
+                + ", ".join(sorted(of.parent.name for of in Path("results").glob("*/*/sweep.nc"))),
+                key=name or "SCENE",
             )
         scene = Scene.load(f"workflow/scenes/{name}.yaml")
         folder = Path("results", scene.blade, name)

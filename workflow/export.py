@@ -43,7 +43,7 @@ def main(name: str = "", *rpm: str) -> None:
     folder, (cells, basis) = of.folder / "export", everywhere(of)
     model = {
         **vars(basis),
-        **vars(of.rom),
+        **{name: of for name, of in vars(of.rom).items() if "gauge" not in name},
         "power": 2 * np.arange(len(of.rom.K)),
         "Omega": np.array(speeds),
         "K_at": np.array([of.rom.stiffness(Omega) for Omega in speeds]),

@@ -13,6 +13,7 @@ from fem.fatigue import largest_cycle, margin, von_mises
 from fem.fields import away, dofs_at, grid_of, linearised, save_vtu
 from fem.solid import Solid, read_solid
 from geometry.blade import RPM, Blade, Fatigue
+from geometry.frame import to_file
 from rom.model import Rom
 from rom.polynomial import evaluate, interpolate
 from rom.reconstruct import Basis
@@ -36,7 +37,9 @@ def write(
 ) -> dict[str, Any]:
     """Write the fields at the reported peaks; return the worst node at every speed.
 
-    A motion that still grows has no mean and no amplitude yet: of that nothing is told.
+    Its place is in the axes and unit of the blade's file; ``missed`` is the share of the motion
+    that the shapes leave out, in the norm of the strain energy. A motion that still grows has no
+    mean and no amplitude yet: of that nothing is told.
     """
     of_basis = Basis.load(basis, origin(sweep))
     solid, fatigue = read_solid(mesh, blade.material), blade.fatigue
@@ -46,13 +49,17 @@ def write(
     nodes, fields = np.flatnonzero(settled), {"away from clamp and contact": settled.astype(float)}
     away_from, peaks, rows = sigma[:, :, nodes], {of.index for of in asked(sweep, rom)}, []
     told = (sweep[name].values.tolist() for name in ("speed", "speed_over_f1", "trend"))
-    for speed, (Omega, over_f1, trend) in enumerate(zip(*told, strict=True)):
-        rows.append({"speed_over_f1": over_f1, "trend": trend})
+    for speed, (missed, Omega, over_f1, trend) in enumerate(zip(moved.missed, *told, strict=True)):
+        rows.append({"speed_over_f1": over_f1, "trend": trend, "missed": float(missed)})
         part, a = Omega / of_basis.Omega_m, moved.with_rotation(speed)
         if trend == GROWING or len(a) == 0:
             continue
         node, found = worst(evaluate(away_from, part), a, fatigue)
-        rows[-1] |= found | {"at_m": points[nodes[node]].tolist()}
+        rows[-1] |= {
+            **found,
+            "at": to_file(points[nodes[node]], blade.drawn).tolist(),
+            "unit": blade.drawn.unit,
+        }
         if speed in peaks:
             of_all = numbers(*cycles(evaluate(sigma, part), a), fatigue)
             fields |= {f"{LABELS[of]}, {RPM * Omega:.0f} rpm": of_all[of] for of in of_all}
@@ -140,7 +147,7 @@ def worst(
     whose bounds leave less margin than the worst of a first few are computed. Arguments as of
     ``cycles``.
     """
-    _, _, turn = np.linalg.svd(a - a.mean(axis=0), full_matrices=False)
+    turn = np.linalg.eigh(np.cov(a.T, bias=True))[1].T
     a, sigma = a @ turn.T, np.tensordot(turn, sigma, 1)  # in its own directions: close bounds
     each = von_mises(sigma)
     bound = _reserve(numbers(np.abs(a).max(axis=0) @ each, np.ptp(a, axis=0) / 2 @ each, fatigue))

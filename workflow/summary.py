@@ -63,7 +63,8 @@ MEANING = {  # of the columns
     "torque": "mean of the revolutions, against the rotation",
     "mean stress, alternating": "of the largest change of stress between two instants of the last "
     "revolution, at the node away from clamp and contact with the least margin (without `fatigue` "
-    "of the blade with the largest alternating stress); not of a growing motion",
+    "of the blade with the largest alternating stress); not of a growing motion; of one that dies "
+    "out it was larger before",
     "margin": "factor by which the alternating stress may grow at that mean stress "
     "(strength: `fatigue` of the blade)",
     "±": "root of the sum of squares of the changes by a twin (gaps changed by 1e-10), by models "
@@ -394,16 +395,17 @@ def _of_lines(scene: Mapping[str, Any]) -> list[str]:
 
 
 def _worst(scene: Mapping[str, Any]) -> list[str]:
-    """Speed and node of the least margin, or of the largest alternating stress, of all speeds."""
+    """Speed and node of the least margin, or of the largest alternating stress, of known speeds."""
     known = [row for row in scene["stresses"] if "alternating" in row]
     if not known:
         return []
     row = min(known, key=lambda row: row.get("margin", -row["alternating"]))
-    rpm = RPM_PER_HZ * scene["f1_Hz"] * row["speed_over_f1"]
     told = [f"{of.head} {of.shown(row)}" for of in COLUMNS if of.name in STRESS & row.keys()]
-    place = ", ".join(f"{1e3 * x:.1f}" for x in row["at_m"])
+    place = ", ".join(f"{x:.4g}" for x in row["at"])
     return [
-        f"Worst stress of all speeds, {rpm:.0f} rpm at x, y, z = {place} mm: {', '.join(told)}."
+        f"Worst stress of {len(known)} of {len(scene['stresses'])} speeds (no growing motions): "
+        f"{RPM_PER_HZ * scene['f1_Hz'] * row['speed_over_f1']:.0f} rpm, x, y, z = {place} "
+        f"{row['unit']}, {', '.join(told)}."
     ]
 
 

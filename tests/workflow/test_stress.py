@@ -70,7 +70,8 @@ def test_the_worst_node_is_that_of_all_states_marched_through_the_fields(
     settled = away(read_solid(str(coarse_mesh.mesh), coarse_blade.material))
     margins = margin(mean, alternating, Fatigue(**STRENGTH))[settled]
     node = np.flatnonzero(settled)[margins.argmin()]
-    assert row["at_m"] == pytest.approx(found[0].points[node].tolist(), abs=1e-9)
+    assert row["at"] == pytest.approx((1e3 * found[0].points[node]).tolist(), abs=1e-6)
+    assert row["unit"] == "mm" and row["missed"] < 0.05
     assert row["alternating"] == pytest.approx(alternating[node], rel=0.01)
     assert row["mean_stress"] == pytest.approx(mean[node], rel=0.01)
     assert row["margin"] == pytest.approx(margins.min(), rel=0.01)
@@ -84,7 +85,7 @@ def test_the_worst_node_is_that_of_all_states_marched_through_the_fields(
 def test_nothing_is_told_of_a_growing_motion(written):
     told, _ = written
     assert [row.get("margin") is None for row in told["speeds"]] == [False, True, False]
-    assert told["speeds"][1] == {"speed_over_f1": SPEEDS[1], "trend": GROWING}
+    assert told["speeds"][1].keys() == {"speed_over_f1", "trend", "missed"}
     assert told["fatigue"] == STRENGTH | {"line": "goodman"}
 
 
@@ -98,17 +99,18 @@ def test_the_file_has_the_fields_of_the_reported_runs(written, sweep, coarse_bla
     (speed,) = np.flatnonzero([f"{RPM * of:.0f} rpm" in name for of in sweep["speed"].values])
     row = told["speeds"][speed]
     assert grid[name][settled].min() == pytest.approx(row["margin"], rel=1e-9)
-    node = int(np.linalg.norm(grid.points - row["at_m"], axis=1).argmin())
+    node = int(np.linalg.norm(1e3 * grid.points - row["at"], axis=1).argmin())
     for what, head in (("mean_stress", "mean stress"), ("alternating", "alternating stress")):
         field = grid[name.replace("margin", f"{head} (Pa)")]
         assert field[node] == pytest.approx(row[what], rel=1e-9)
 
 
+@pytest.mark.parametrize("times", [60, 3])  # also fewer than shapes
 @pytest.mark.parametrize("fatigue", [Fatigue(**STRENGTH), None])
-def test_the_search_by_bounds_finds_the_worst_of_all_nodes(fatigue):
+def test_the_search_by_bounds_finds_the_worst_of_all_nodes(fatigue, times):
     rng = np.random.default_rng(5)
     sigma = 1e7 * rng.normal(size=(5, 700, 6)) * [[[10]], *[[[1]]] * 4]
-    a = np.hstack([np.ones((60, 1)), rng.normal(size=(60, 4)) * [3, 1, 0.3, 0.1]])
+    a = np.hstack([np.ones((times, 1)), rng.normal(size=(times, 4)) * [3, 1, 0.3, 0.1]])
     mean, alternating = cycles(sigma, a)
     of_all = numbers(*largest_cycle(np.tensordot(a, sigma, 1)), fatigue)
     np.testing.assert_allclose(mean, of_all["mean_stress"], rtol=1e-9)

@@ -56,7 +56,8 @@ OF = {
     "mu_crit": None,
     "peaks": [ANSWER],
 }
-WORST = {"mean_stress": 3e8, "alternating": 2e7, "margin": 17.0, "at_m": [0.4, 0.01, -0.02]}
+WORST = {"mean_stress": 3e8, "alternating": 2e7, "margin": 17.0, "at": [400.0, 10.0, -20.0]}
+WORST |= {"unit": "mm"}
 STRESS = {
     "scene": "mine",
     "speeds": [
@@ -173,8 +174,8 @@ def test_of_a_growing_motion_no_stress_is_told(summed):
 def test_the_worst_stress_of_all_speeds_is_told_with_its_node(summed):
     """By margin; without strength by the alternating stress; nothing where none is known."""
     line = (
-        "Worst stress of all speeds, 3600 rpm at x, y, z = 400.0, 10.0, -20.0 mm: mean stress MPa "
-        "300, alternating MPa 25"
+        "Worst stress of 2 of 3 speeds (no growing motions): 3600 rpm, x, y, z = 400, 10, -20 "
+        "mm, mean stress MPa 300, alternating MPa 25"
     )
     text = summary.terminal(summed(stress=STRESS))
     assert f"{line}, margin 12.5." in text and "stress at" not in text

@@ -12,6 +12,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from itertools import product
+from operator import attrgetter
 from pathlib import Path
 from typing import Any, Literal
 
@@ -33,7 +34,12 @@ from simulate.scene.design import placed, value_at
 SCENES = Path("workflow/scenes")
 OF_A_ROW = ("times", "directions", "model")  # its keys that are none of a scene
 DIRECTIONS = ("r", "rt", "rtz")  # of the interface DoFs
-REFUSED = ("accuracy", "design", "start")  # keys that need other files than the model
+REFUSED = (
+    "accuracy",
+    "design",
+    "start",
+    "record.gauges",
+)  # keys that need other files than the model
 FILES = {  # of a model, by names that functions of numbers have for them
     "rom": "results/{blade}/rom-{directions}.nc",
     "mesh": "results/{blade}/blade.msh",
@@ -255,7 +261,7 @@ def _case(
     if model:
         require_function(model, "model")
     scene = check_settings(Scene, values, "")
-    if refused := [key for key in REFUSED if getattr(scene, key)]:
+    if refused := [key for key in REFUSED if attrgetter(key)(scene)]:
         raise SettingsError("is no key of an experiment: take it out", key=refused[0])
     numbers = experiment.numbers
     of_label = numbers if isinstance(numbers, str) else numbers.get(label, "peaks")

@@ -24,8 +24,9 @@ def draw(fields: views.Fields, stress: Mapping[str, Any]) -> Figure:
     """Both sides on one scale; ``fields`` is the blade of ``stress.vtu``, ``stress`` its names."""
     away = fields["away from clamp and contact"] > 0
     known = {name: fields[name] / MEGA for name in fields.point_data if name.startswith(FIELD)}
-    growing = f"{FIELD}growing motion: not known", np.zeros(len(away))
-    name, sigma = max(known.items(), key=lambda of: of[1][away].max(), default=growing)
+    name, sigma = max(
+        known.items(), key=lambda of: of[1][away].max(), default=("", np.zeros(len(away)))
+    )
     levels = MaxNLocator(LEVELS).tick_values(0, max(sigma.max(), 1.0))
     look = style.MAP.resampled(len(levels) - 1), (levels[0], levels[-1]), LIGHT
     still = np.zeros_like(fields.points)
@@ -35,8 +36,10 @@ def draw(fields: views.Fields, stress: Mapping[str, Any]) -> Figure:
         look,
         style.SINGLE,
         corners(fields.points),
-        f"scene {stress['scene']}, blade {stress['blade']}, {name.removeprefix(FIELD)}\n"
-        f"away from clamp and contact {sigma[away].max():.1f} MPa, anywhere {sigma.max():.1f} MPa",
+        f"scene {stress['scene']}, blade {stress['blade']}\n{name.removeprefix(FIELD)}, away from "
+        f"clamp and contact {sigma[away].max():.1f} MPa, anywhere {sigma.max():.1f} MPa"
+        if known
+        else f"scene {stress['scene']}, blade {stress['blade']}\nnot known at its peaks: they grow",
         shrink=0.9,
         aspect=30,
         ticks=levels[::2],

@@ -114,10 +114,7 @@ def scene_settings(name):
             f"without the mesh that pictures of the whole blade and gauges need: take it out"
         )
     if name in EXPLORED and scene.clearance.at_rest:
-        raise WorkflowError(
-            f"workflow/config.yaml: explore: {name!r}: its page has one gap for all speeds: allowed are "
-            f"scenes with `clearance: {{at: running}}`"
-        )
+        raise WorkflowError(refused_at_rest(name))
     if name in EXPLORED and scene.design:
         raise WorkflowError(
             f"workflow/config.yaml: explore: {name!r} is a design: allowed are sweeps"
@@ -127,6 +124,14 @@ def scene_settings(name):
         DESIGN_ROWS[name] = len(design.scenes)
         require_blade(name, *design.scenes, table=design.path)
     return scene
+
+
+def refused_at_rest(name):
+    """Why a scene with gaps at rest has no page."""
+    return (
+        f"workflow/config.yaml: explore: {name!r}: its page has one gap for all speeds: allowed are "
+        f"scenes with `clearance: {{at: running}}`"
+    )
 
 
 def require_blade(name, *scenes, table=None):
@@ -402,8 +407,10 @@ def sweep_before(wildcards):
     return f"results/{scene.blade}/{scene.start.scene}/sweep.nc" if scene.start else []
 
 
-def stress_of_scene(wildcards):
-    """The stresses of a scene that keeps its motion."""
+def stress_of_page(wildcards):
+    """The stresses of a scene that keeps its motion, for its page; without gaps at rest."""
+    if SCENES[wildcards.scene].clearance.at_rest:
+        raise WorkflowError(refused_at_rest(wildcards.scene))
     path = f"results/{wildcards.blade}/{wildcards.scene}/stress.json"
     return path if keeps_motion(SCENES[wildcards.scene]) else []
 

@@ -10,7 +10,7 @@ rule explore:
         basis=basis_of_scene,
         sweep="results/{blade}/{scene}/sweep.nc",
         answers="results/{blade}/{scene}/answers.json",
-        stress=stress_of_scene,
+        stress=stress_of_page,
     output:
         html=report(
             "results/{blade}/{scene}/explore.html",
