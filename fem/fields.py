@@ -331,15 +331,16 @@ def grid(
             f"direction {[*gauge.direction]}: across the surface there; give one along it",
         ),
         (
-            np.linalg.norm(places - feet, axis=1).max() > FARTHEST
-            or (normals(facets[under], points) @ normal).min() <= 0.5,  # round an edge
-            f"length_mm {gauge.length_mm:g}: its grid leaves the surface; allowed shorter or "
-            "farther from the edge",
-        ),
-        (
             not away(solid, places=feet).all(),
             f"at {[*gauge.at]}: nearer to clamp or tip than {AWAY:.0%} of the blade's length, "
             "where the stress does not converge with mesh and patches; allowed farther",
+        ),
+        (
+            # no place farther from the surface than from its neighbour, none round an edge
+            np.linalg.norm(places - feet, axis=1).max() > 1e-3 * gauge.length_mm / PLACES
+            or (normals(facets[under], points) @ normal).min() <= 0.5,
+            f"length_mm {gauge.length_mm:g}: its grid leaves the surface; allowed shorter or "
+            "farther from the edge",
         ),
     ):
         if refused:

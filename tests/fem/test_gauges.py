@@ -120,6 +120,17 @@ def test_places_and_directions_that_cannot_be_are_refused(bar, at, direction, wh
     assert error.key == "record.gauges" and "'mid'" in str(error) and why in str(error)
 
 
+@pytest.mark.parametrize(("z", "inside"), [(0.048, True), (0.0498, False)])
+def test_a_grid_that_hangs_over_an_edge_is_refused(bar, z, inside):
+    """Of 2 mm, across the edge at z = 50 mm."""
+    given = gauge((0.5, 0.025, z), (0, 0, 1))
+    if inside:
+        assert grid(bar, OURS, given, 0.0)[0].sum() == pytest.approx(1, rel=1e-12)
+    else:
+        error = refused(SettingsError, grid, bar, OURS, given, 0.0)
+        assert "length_mm 2: its grid leaves the surface" in str(error)
+
+
 @pytest.fixture(scope="module")
 def on_blade(coarse_blade, coarse_mesh, coarse_matrices, coarse_reduced, solid):
     """Rows of three gauges on the coarse blade, and what they are made of."""

@@ -40,7 +40,7 @@ rule stress:
     params:
         run="workflow.stress:write",
         blade=blade_file,
-        uses=blade_uses("material", "prestress", "fatigue"),
+        uses=blade_uses("material", "prestress", "fatigue", *SOURCES),
     message:
         "Mean and alternating stress of scene {wildcards.scene}"
     script:
