@@ -338,7 +338,7 @@ def grid(
         (
             # no place farther from the surface than from its neighbour, none round an edge
             np.linalg.norm(places - feet, axis=1).max() > 1e-3 * gauge.length_mm / PLACES
-            or (normals(facets[under], points) @ normal).min() <= 0.5,
+            or (normals(facets[under], points) @ normal).min() <= 0,
             f"length_mm {gauge.length_mm:g}: its grid leaves the surface; allowed shorter or "
             "farther from the edge",
         ),

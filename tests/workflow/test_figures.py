@@ -1023,7 +1023,7 @@ def test_the_stress_is_that_of_the_largest_away_from_clamp_and_contact():
     """Not of the run with the largest under the contact; without a steady run it says so."""
     fields, names = stressed(at_3133=at_one_side, at_5400=at_the_tip)
     heading = stress.draw(fields, names).get_suptitle()
-    assert "3133 rpm, away from clamp and contact 400.0 MPa, anywhere 400.0 MPa" in heading
+    assert "3133 rpm\naway from clamp and contact 400.0 MPa, anywhere 400.0 MPa" in heading
     assert "not known at its peaks" in stress.draw(*stressed()).get_suptitle()
     at = stress.corners(fields.points)
     assert [at[name][0] for name in ("LE", "TE", "tip", "hub")] == [3, 3, 3, 0]

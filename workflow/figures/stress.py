@@ -36,8 +36,8 @@ def draw(fields: views.Fields, stress: Mapping[str, Any]) -> Figure:
         look,
         style.SINGLE,
         corners(fields.points),
-        f"scene {stress['scene']}, blade {stress['blade']}\n{name.removeprefix(FIELD)}, away from "
-        f"clamp and contact {sigma[away].max():.1f} MPa, anywhere {sigma.max():.1f} MPa"
+        f"scene {stress['scene']}, blade {stress['blade']}, {name.removeprefix(FIELD)}\n"
+        f"away from clamp and contact {sigma[away].max():.1f} MPa, anywhere {sigma.max():.1f} MPa"
         if known
         else f"scene {stress['scene']}, blade {stress['blade']}\nnot known at its peaks: they grow",
         shrink=0.9,
