@@ -139,7 +139,7 @@ def on_blade(coarse_blade, coarse_mesh, coarse_matrices, coarse_reduced, solid):
     points = solid.V.tabulate_dof_coordinates()
     grids = []
     for radius in (0.45, 0.49, 0.53):
-        near = points[abs(np.hypot(*points.T[:2]) - radius) < 0.01]
+        near = points[(abs(np.hypot(*points.T[:2]) - radius) < 0.01) & (abs(points[:, 2]) < 0.01)]
         at = near[near[:, 1].argmax()]
         grids.append((gauge(1e3 * at, (1.0, 0.1, 0.2)), 45.0 * len(grids)))
     statics = [basis.static(Omega) for Omega in rom.speeds]
@@ -192,5 +192,5 @@ def test_departure_of_the_nonlinear_field_in_a_rub(on_blade, coarse_rom, solid):
         off = abs(np.array(fields) - rows[..., 0] - moving)
         return off.max(axis=1) / abs(moving).max(axis=1)
 
-    assert departures(u) == pytest.approx([0.037, 0.13], rel=0.05)
+    assert departures(u) == pytest.approx([0.039, 0.148], rel=0.05)
     assert departures(u / 2) == pytest.approx(departures(u) / 2, rel=0.05)
