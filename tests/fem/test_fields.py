@@ -76,8 +76,8 @@ def sorted_cells(points, cells):
 
 
 def test_vtk_opens_the_file_with_all_fields(tmp_path, shaken):
-    shaken.save(tmp_path / "peak.vtu", {"time_rounds": 19.5})
-    grid = pv.read(tmp_path / "peak.vtu")
+    shaken.save(tmp_path / "field.vtu", {"time_rounds": 19.5})
+    grid = pv.read(tmp_path / "field.vtu")
     assert set(grid.celltypes) == {pv.CellType.QUADRATIC_TETRA}
     np.testing.assert_array_equal(grid.points, shaken.points)
     for name, expected in {
@@ -89,7 +89,7 @@ def test_vtk_opens_the_file_with_all_fields(tmp_path, shaken):
     }.items():
         np.testing.assert_array_equal(grid[name], expected, name)
     assert grid.field_data["time_rounds"] == 19.5
-    assert meshio.read(tmp_path / "peak.vtu").points.shape == shaken.points.shape
+    assert meshio.read(tmp_path / "field.vtu").points.shape == shaken.points.shape
     xx, yy, zz, xy, yz, xz = grid["stress (Pa)"].T
     sigma = shaken.total.stress
     np.testing.assert_array_equal([xy, yz, xz], [sigma[:, 0, 1], sigma[:, 1, 2], sigma[:, 0, 2]])

@@ -83,7 +83,7 @@ SAVERS: dict[str, Callable[[Path, Blade], Callable[[Path], Any]]] = {
     "sweep.nc": lambda blade, _: partial(dataset.save, sweep_of(blade)),
     "runs.nc": lambda blade, _: partial(design_runs.save, sweep_of(blade)),
     "settings.json": lambda *_: partial(write_json, {"speeds": [0.1] * ROOM}),
-    "peak.vtu": lambda *_: lambda path: made_fields().save(path, {"time": 1.0}),
+    "field.vtu": lambda *_: lambda path: made_fields().save(path, {"time": 1.0}),
     "figure.pdf": lambda *_: partial(style.save, drawn()),
     "figure.png": lambda *_: partial(style.save, drawn()),
 }
