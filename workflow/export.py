@@ -63,7 +63,7 @@ def main(name: str = "", *rpm: str) -> None:
         data = {f"mode {i} ({f:.1f} Hz)": shape for i, (f, shape) in enumerate(named, 1)}
         save_vtu(basis.coordinates, cells, data, folder / f"modes-{RPM * Omega:.0f}rpm.vtu")
     for Omega in asked if "motion" in of.runs else []:
-        run = of.runs.isel({SPEED: int(abs(of.runs["speed"] - Omega).argmin())})
+        run = of.runs.isel({SPEED: int(abs(of.runs["speed"].values - Omega).argmin())})
         steps(run, cells, basis, of.blade.drawn.unit, folder)
     print(f"{folder}: {', '.join(sorted(path.name for path in folder.iterdir()))}")
 

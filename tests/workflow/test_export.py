@@ -30,7 +30,9 @@ AXES = {"downstream": "x", "radial": "-y", "rotation": "left-handed"}
 
 
 def export(project, *words, expect=0):
-    return project.call(sys.executable, "-m", "workflow.export", *words, expect=expect)
+    return project.call(
+        sys.executable, "-W", "error", "-m", "workflow.export", *words, expect=expect
+    )
 
 
 @pytest.fixture(scope="module")
@@ -252,8 +254,8 @@ def test_the_table_has_what_is_one_number_of_each_run(exported):
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        ((), "no workflow/scenes/.yaml: there are ansys, "),
-        (("none",), "none: no workflow/scenes/none.yaml: there are ansys, "),
+        ((), "SCENE: no workflow/scenes/.yaml; of these there are results: paper-e1, "),
+        (("none",), "none: no workflow/scenes/none.yaml; of these there are results: paper-e1, "),
         (("long-20",), "no result yet: ./run snakemake results/reference/long-20/sweep.nc, then"),
         (("five-factors",), "five-factors: its design makes tables, and no sweep"),
         (("paper-e1", "fast"), "'fast' is no number; needs RPM"),
