@@ -93,7 +93,7 @@ def made_fields() -> Fields:
     """Fields of as many nodes as take more than the room."""
     points = np.random.default_rng(1).normal(size=(2000, 3))
     tensor = points[:, :, None] * np.ones(3)
-    of = Stress(tensor, tensor, 1.0)
+    of = Stress(tensor, tensor)
     return Fields(points, np.arange(2000).reshape(-1, 10), points, points, of, of)
 
 
