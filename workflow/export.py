@@ -24,7 +24,7 @@ from rom.reconstruct import Basis
 from simulate.sweeps.dataset import SPEED
 from workflow.check import Subject
 
-MOST_STEPS = 200  # of a run: some 500 MB on a mesh of 20,000 nodes
+MOST_STEPS = 200  # of a run: some 300 MB on a mesh of 20,000 nodes
 
 
 @command

@@ -89,7 +89,7 @@ def motion(sweep: Sweep, G: NDArray[np.float64], shapes: int) -> Motion:
     """Proper orthogonal decomposition of ``sweep.motion`` with the norm (u^T G u)^(1/2).
 
     With G = M the first shapes hold the displacement, with G = K the strain energy, and so the
-    stress: with M five shapes may miss it by a fifth that hold the displacement to 1 %.
+    stress, of which shapes that hold the displacement may miss a part.
 
     Each speed counts alike, whatever its amplitude. Source: Sirovich, Quarterly of Applied
     Mathematics 45 (1987), with the snapshots in reduced coordinates.
