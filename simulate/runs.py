@@ -9,6 +9,7 @@ import xarray as xr
 
 from geometry.blade import RPM
 from rom.model import Rom
+from simulate.errors.checked import checked
 from simulate.marching import Outcome, check_scene
 from simulate.scene import Scene
 from simulate.sweeps import closing_in, dataset, over_speeds, peak
@@ -43,6 +44,7 @@ class Runs:
                 f"Runs of blade {self.dataset.attrs['blade']}: {len(speeds)} speeds, "
                 f"{speeds.min():.0f} to {speeds.max():.0f} rpm",
                 ", ".join(f"{status}: {count}" for status, count in ends.items()),
+                dataset.checks(self.dataset),
                 *(
                     f"EO {k}: peak at {speeds[of.index]:.0f} rpm, {of.over_crossing:.3f} times the "
                     f"linear crossing, {of.amplitude:.3g} gaps"
@@ -114,7 +116,8 @@ def march(scene: Scene, rom: Rom, Omega: float) -> Outcome:
     """
     check_scene(scene, rom)
     warn_of(doubts(scene, rom).values())
-    return over_speeds.march_one(over_speeds.set_up(scene, rom, Omega)).outcome
+    run = over_speeds.march_one(over_speeds.set_up(scene, rom, Omega))
+    return checked([run], scene.checked_share)[0][0].outcome
 
 
 def peaks(runs: Runs) -> dict[int, peak.Peak]:

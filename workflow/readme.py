@@ -161,6 +161,7 @@ COMPUTED = (
     ("bars", "results/experiments/bars/table.md", str),
     ("limits", "results/figures/stability-map.json", stability.limits),
     ("extremes", "results/figures/stability-matrix.json", stability.extremes),
+    ("sweeps", "results/figures/stability-sweeps.json", stability.sweeps),
     ("cuts", "results/experiments/frequencies/table.json", rotor37.edge_cuts_table),
     ("inputs", "tests/inputs/counts.json", inputs),
     ("bricks", "tests/fem/bricks.json", bricks),

@@ -93,7 +93,7 @@ PARTS = {  # of uncertainties, that may not be known
 
 # Values of a scene taken from its answers as they are.
 TOLD = ("scene", "blade", "f1_Hz", "gap_m", "dofs", "crossings", "status", "reasons", "ends")
-TOLD += ("doubt", "no_torque", "mu_crit", "sweep_s")
+TOLD += ("checks", "doubt", "no_torque", "mu_crit", "sweep_s")
 
 COURSE = {  # of ``dataset.course``: unit and its scale from SI
     "time_constant": ("rounds", 1.0),
@@ -383,7 +383,11 @@ def notes(scene: Mapping[str, Any]) -> list[str]:
     if scene["mu_crit"]:
         lines.append(f"The tip locks at a friction coefficient of {scene['mu_crit']:.3f} or more.")
     cost = f"{scene['runs']} runs, {scene['answers_s']:.1f} s of CPU time"
-    return [*lines, f"Uncertainties: {cost}; the sweep: {scene['sweep_s']:.0f} s."]
+    return [
+        *lines,
+        f"Error of the step: {scene['checks']}.",
+        f"Uncertainties: {cost}; the sweep: {scene['sweep_s']:.0f} s.",
+    ]
 
 
 def _of_lines(scene: Mapping[str, Any]) -> list[str]:

@@ -23,7 +23,7 @@ class Neighbour(NamedTuple):
     rom: Callable = same  # Rom -> Rom: a model made from that of the run
     setup: Callable = same  # Setup -> Setup
     blade: Callable | None = None  # Blade -> Blade: its reduced model has to be made
-    steps: int = 1  # times the steps per revolution
+    steps: float = 1  # times the steps per revolution
     along: bool = False  # at the same speed over f1(0) of the other model, not in rad/s
     cost: float = 1.0  # of the run, over that of the first
     remeshed: bool = False  # the blade needs another mesh

@@ -1,4 +1,4 @@
-"""Second runs beside a run: a twin, half and a quarter of its step, other models; its status.
+"""Second runs beside a run: a twin, twice, half and a quarter of its step, models; its status.
 
 A twin is the same run with all gaps changed by 1e-10, far less than any manufacturing tolerance.
 The computation is deterministic, so that only this change makes the two differ. Where they differ
@@ -6,26 +6,31 @@ by more than 1 %, the motion is chaotic: the results hold for these exact gaps o
 blade's will differ. Reference: Shaw and Holmes 1983, a periodically forced piecewise linear
 oscillator.
 
-The error of the step is bounded by runs with half and, in doubt, a quarter of it. Central
+The error of the step is bounded by runs with twice, half and, in doubt, a quarter of it. Central
 differences are of order one in contact: halving the step halves the error, so that the error is
 twice the change. Piecewise-exact is of order two: its error is 4/3 of the change, but at long steps
 on hard liners its order is lower, too. The bound is that of order one for both, with a safety
-factor of 1.5 (Roache 1994, grid convergence index).
+factor of 1.5 (Roache 1994, grid convergence index). A run with twice the step costs a quarter of
+one with half of it.
 
 A bound with such a factor stops runs that are right by little, and of two runs no order can be
-seen. So where the bound is near its limit, a third run takes a quarter of the step. Its own error
-is at most the change by the last halving, if the order is at least one: the bound is the change
-from the run to the third, and that of the last halving.
+seen. So in doubt a third run takes a quarter of the step. By order one the error is 4/3 of the
+change to it, and its own error is the change by the last halving: the bounds are 1.3 and 2 times
+these. Where the third run is within its bound and the run is not, it is the result.
 
 A contact shorter than a step may be seen, or missed, by both runs alike, since they share every
 second instant. Its steps then are as many in both, though the time in contact should be the same:
 the share of steps with contact tells. Not in central differences, whose rods throw the tip back
 within few steps at any step near their limit.
+
+Where rods pass the tip in time with the steps, errors may repeat at half the step. So runs with
+twice and half of it have one rod more; in doubt the third, which has the rods of the run, decides.
 """
 
+from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
-from math import inf
+from math import inf, isfinite
 
 import numpy as np
 
@@ -34,11 +39,15 @@ from simulate.errors.neighbour import Neighbour
 from simulate.errors.observables import differences
 from simulate.errors.resolution import LOST
 from simulate.errors.run import Run
-from simulate.marching import SENSITIVE_FROM, STATED, WITH_RESULT, Setup, status
+from simulate.marching import SENSITIVE_FROM, STATED, TO_THE_END, Setup, status
+from simulate.scene import Scene
 
 GAP_CHANGE = 1e-10  # of the gaps: a million times round-off, a millionth of any tolerance
-SAFETY = 3.0  # bound of the error over the change by half the step
-NEAR = (STATED / 2, SAFETY * STATED)  # of a bound by half the step: a quarter of the step decides
+# Bounds of the error over the change by twice, half and a quarter of the step
+OF_TWICE, OF_HALF, OF_QUARTER = 1.5, 3.0, 1.75
+LAST_HALVING = 2.0  # and of that of a quarter of the step over the change from half of it
+NEAR = STATED / 2  # bound above which shorter steps decide
+TWICE = 0.5  # steps of a run with twice the step over those of the run
 CONTACT_CHANGE = 0.25  # relative, of the share of steps with contact: above, it is `inaccurate`
 
 
@@ -49,9 +58,19 @@ def shifted(setup: Setup) -> Setup:
     return replace(setup, strips=setup.strips._replace(g0=g0 + change))
 
 
+def one_rod_more(scene: Scene, samples: int | None = None) -> Scene:
+    """The scene with one rod more around the casing, and so many ``samples`` per revolution."""
+    sampled = {"samples_per_round": samples or scene.record.samples_per_round}
+    rods = {"rods_per_round": scene.liner.rods_per_round + 1}
+    changes = {"record": sampled, "liner": rods}
+    return scene.model_copy(
+        update={key: getattr(scene, key).model_copy(update=of) for key, of in changes.items()}
+    )
+
+
 ITSELF = Neighbour("as it is")
 TWIN = Neighbour("a twin", setup=shifted)
-HALF = Neighbour("half the step", steps=2, cost=2.0)
+HALF = Neighbour("half the step", one_rod_more, steps=2, cost=2.0)
 QUARTER = Neighbour("a quarter of the step", steps=4, cost=4.0)
 
 
@@ -67,59 +86,96 @@ def _raised(rom: Rom, share: float, along: bool) -> Rom:
     return replace(rom, K=rom.K * (1 + share) ** 2, f1=f1)
 
 
-def judged(run: Run, met: bool = True) -> Run:
+def judged(run: Run, met: bool = True, check: bool = False) -> Run:
     """March the second runs that the scene asks for beside a run, and decide on its status.
 
-    ``met``: whether the errors that it has are within its ``accuracy``. A run without second runs
-    and errors may lose less energy (``resolution``).
+    ``met``: whether the errors that it has are within its ``accuracy``. ``check``: bound the error
+    of its step, by twice the step where that is enough, else as with `halving`, and by a twin.
+    Where only a quarter of the step converges, its run is the result. A run without second runs and
+    errors may lose less energy (``resolution``).
     """
-    scene, outcome, errors, departures = run.scene, run.outcome, run.errors, {}
-    if scene.twin:
-        departures = differences(run, run.beside(TWIN).march())
-    apart, bound = max(departures.values(), default=0.0), 0.0
-    alone = not errors and not scene.halving
-    if scene.halving:
-        errors, bound = halved(run, sensitive=apart > SENSITIVE_FROM)
-    lost = LOST[scene.integrator.scheme] if alone else status.LOST
+    made = [
+        run := replace(run, outcome=replace(run.outcome, status=status.judge(run.outcome.facts)))
+    ]
+
+    def beside(other: Neighbour) -> Run:
+        made.append(run.beside(other).march())
+        return made[-1]
+
+    found, bound = _found(run, beside, check)
+    apart, outcome = max(found.departures.values(), default=0.0), found.outcome
+    lost = status.LOST if found.errors else LOST[run.scene.integrator.scheme]
     word = status.judge(outcome.facts, apart, bound, met, lost)
     reason = outcome.reason if word == outcome.status else ""
-    outcome = replace(outcome, status=word, reason=reason)
-    return replace(run, outcome=outcome, departures=departures, errors=errors)
+    return replace(
+        found,
+        outcome=replace(outcome, status=word, reason=reason),
+        steps=run.steps + sum(of.outcome.rounds * of.setup.steps for of in made[bool(run.steps) :]),
+    )
 
 
-def halved(run: Run, sensitive: bool = False) -> tuple[dict[str, float], float]:
-    """Run with half the step: bounds of relative errors by observable, and the one that counts.
+def _found(run: Run, beside: Callable[[Neighbour], Run], check: bool) -> tuple[Run, float]:
+    """The run, or that in its place, with what second runs find; the bound that counts."""
+    errors, bound, departures = run.errors, 0.0, run.departures
+    doubtful, ended = run.scene.halving, run.outcome.status in TO_THE_END
+    if check and ended and not doubtful:
+        errors, bound = from_twice(run, beside)
+        doubtful = bound > NEAR
+    if doubtful and ended:
+        half = beside(HALF)
+        errors, bound = _against(run, half, OF_HALF)
+    doubtful = bound > NEAR
+    if not departures and (run.scene.twin or (check and doubtful)):
+        departures = differences(run, beside(TWIN))
+    result, apart = run, max(departures.values(), default=0.0)
+    if doubtful and apart <= SENSITIVE_FROM:
+        result, errors, bound = from_quarter(run, half, beside(QUARTER))
+    return replace(result, errors=errors, departures=departures), bound
 
-    With a quarter of the step, too, where the bounds are near 0.1. The largest counts; inf
-    where the run, or that with half the step, fails, where they end differently, and where the
-    share of steps with contact changes by over a quarter. For a ``sensitive`` run half is enough.
+
+def from_twice(run: Run, beside: Callable[[Neighbour], Run]) -> tuple[dict[str, float], float]:
+    """Bounds of errors from a run with twice the step, and the one that counts.
+
+    The latter is inf where such a step may be too long for the scheme, friction, or the samples.
     """
-    if run.outcome.status not in WITH_RESULT:
-        return dict.fromkeys(run.scene.record.observables, inf), inf
-    half = run.beside(HALF).march()
-    errors = bounds(run, half)
-    ends = {of.outcome.status for of in (run, half)}
-    if sensitive or len(ends) > 1 or _other_contact(run, half):
-        return errors, inf
-    if NEAR[0] < max(errors.values()) <= NEAR[1]:
-        errors = bounds(run, half, run.beside(QUARTER).march())
-    return errors, max(errors.values())
+    scene, steps, samples = run.scene, run.setup.steps, run.scene.record.samples_per_round
+    samples //= 1 + steps // samples % 2
+    if (
+        (scene.integrator.scheme == "central-difference" and 2 * run.setup.h > run.setup.limit)
+        or scene.contact.friction is not None
+        or steps % (2 * samples)
+    ):
+        return {}, inf
+    thinned = partial(one_rod_more, samples=samples)
+    longer = Neighbour("twice the step", thinned, steps=TWICE, cost=TWICE)
+    return _against(run, beside(longer), OF_TWICE)
 
 
-def _other_contact(run: Run, half: Run) -> bool:
-    """Whether steps in contact are not twice as many at half the step."""
-    shares = run.outcome.contact_share, half.outcome.contact_share
+def from_quarter(run: Run, half: Run, quarter: Run) -> tuple[Run, dict[str, float], float]:
+    """The run, bounds of its errors from a quarter of its step, and the one that counts.
+
+    Or in its place that with a quarter of its step, if its bound is above 0.1, and that one's not.
+    """
+    errors, bound = _against(run, half, OF_HALF)
+    if isfinite(bound):
+        errors, bound = _against(run, quarter, OF_QUARTER)
+    finer, of_finer = _against(quarter, half, LAST_HALVING)
+    return (quarter, finer, of_finer) if bound > STATED >= of_finer else (run, errors, bound)
+
+
+def _against(run: Run, other: Run, safety: float) -> tuple[dict[str, float], float]:
+    """Bounds of the errors of a run, ``safety`` times its difference, and the one that counts.
+
+    The largest; inf where one fails, where they end differently, and where the share of steps with
+    contact differs by over a quarter.
+    """
+    errors = {name: safety * of for name, of in differences(run, other, neither=inf).items()}
+    same = run.outcome.status == other.outcome.status and not _other_contact(run, other)
+    return errors, max(errors.values()) if same else inf
+
+
+def _other_contact(run: Run, other: Run) -> bool:
+    """Whether the steps in contact are not as many times more as all steps are."""
+    shares = run.outcome.contact_share, other.outcome.contact_share
     chatters = run.scene.integrator.scheme == "central-difference"
     return not chatters and abs(shares[1] - shares[0]) > CONTACT_CHANGE * max(shares)
-
-
-def bounds(run: Run, half: Run, quarter: Run | None = None) -> dict[str, float]:
-    """Bounds of the relative errors of a run, from those with half and a quarter of its step.
-
-    Infinite where one of these failed.
-    """
-    if quarter is None:
-        return {name: SAFETY * of for name, of in differences(run, half, neither=inf).items()}
-    to_finest = differences(run, quarter, neither=inf)
-    of_last_halving = differences(half, quarter, neither=inf)
-    return {name: of + of_last_halving[name] for name, of in to_finest.items()}

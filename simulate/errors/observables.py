@@ -52,12 +52,11 @@ def observables(run: Run, samples: int | None = None, rods: int | None = None) -
     every = record.samples_per_round // samples
     thinned = slice(every - 1, None, every)  # the first lies a sample after the start
 
-    def last_rounds() -> NDArray[np.float64]:
-        # aliasing is the same where samples of both runs are thinned alike
-        return outcome.u_r[thinned][-record.spectrum_rounds * samples :, 0]
-
     found = {
-        "spectrum": lambda: spectrum(last_rounds())[1:],
+        # of the last revolutions; aliasing is the same where both runs are thinned alike
+        "spectrum": lambda: spectrum(outcome.u_r[thinned][-record.spectrum_rounds * samples :, 0])[
+            1:
+        ],
         "wear": lambda: on_rods(
             by_share(outcome.wear, outcome.ends), rods or outcome.wear.shape[1]
         ),

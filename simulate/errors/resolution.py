@@ -11,6 +11,11 @@ the shortest window lasted 12 steps, while all of 11 with a window below 6 steps
 more with a period below 100 steps in which the tip could touch 5 were; of 6 with piecewise-exact
 that had lost over 1.5 % of the casing's work 5 were, of 9 with central differences and over 6 % 4.
 With half the step beside it a run may have a period of 10: below, all steps may miss a contact.
+
+Both facts together tell the risk of a run that is within these limits: few steps in a period, and
+energy lost. Its power and ``RISKY`` are from 700 cases of one seed: of runs in contact that were
+neither refused nor stopped 20 of 22 wrong ones are above it, and 110 of 248 right ones; with a
+second seed all 11, and 111 of 254. The two missed are wrong in forces of hundredths of a newton.
 """
 
 import numpy as np
@@ -19,6 +24,7 @@ from scipy.ndimage import label, maximum
 
 from simulate.contact.strips import rods_in_footprint
 from simulate.contact.travelling import farthest, met
+from simulate.errors.run import Run
 from simulate.marching import SceneError, Setup
 from simulate.scene import Scene
 
@@ -30,6 +36,8 @@ HALVED = 10.0  # and where half the step is run, too
 # of the casing's work: above, a run that stands alone is `inaccurate`; the predicted force of
 # central differences loses some also where they are accurate
 LOST = {"central-difference": 0.06, "piecewise-exact": 0.015}
+POWER, LEAST_LOST = 0.25, 1e-8  # of the share lost, in the risk; smaller shares are round-off
+RISKY = 5e-4  # risk above which a run that stands alone is checked
 
 
 def check_resolution(scene: Scene, setup: Setup) -> None:
@@ -46,7 +54,7 @@ def check_resolution(scene: Scene, setup: Setup) -> None:
     deepest = farthest(strips) - float(strips.g0.min())
     if not strips.touches or deepest <= 0:  # a blade at rest stays so
         return
-    period = 2 * np.pi / (setup.omega[0] * setup.h)
+    period = _period(setup)
     window = shortest_window(scene.liner.footprint_m, setup, deepest)
     times, what = max(
         (
@@ -66,6 +74,25 @@ def check_resolution(scene: Scene, setup: Setup) -> None:
         value=round(of_round),
         allowed={"ge": least},
     )
+
+
+def risk(run: Run) -> float:
+    """Risk that a run is wrong, from it alone: 1 where period and energy are at their limits.
+
+    Inf for a run that is stopped, which may be right; 0 without contact.
+    """
+    ledger, limit = run.outcome.ledger, LOST[run.scene.integrator.scheme]
+    if run.outcome.status == "inaccurate":
+        return np.inf
+    if run.outcome.contact_share == 0:
+        return 0.0
+    lost = abs(ledger.numerical) / max(abs(ledger.casing), np.finfo(float).tiny)
+    return float(PERIOD / _period(run.setup) * (max(lost, LEAST_LOST) / limit) ** POWER)
+
+
+def _period(setup: Setup) -> float:
+    """Steps in a period of the first mode."""
+    return 2 * np.pi / (setup.omega[0] * setup.h)
 
 
 def shortest_window(footprint: float, setup: Setup, deepest: float) -> float:

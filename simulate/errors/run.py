@@ -30,6 +30,11 @@ class Case:
     setup: Setup
     left: Left | Worn | None = None  # start of the run
 
+    @property
+    def steps_of_a_turn(self) -> int:
+        """Steps in which the blade turns once."""
+        return round(2 * np.pi / (self.setup.Omega * self.setup.h))
+
     def beside(self, other: Neighbour) -> "Case":
         """The case of a second run.
 
@@ -46,9 +51,9 @@ class Case:
             # more steps than a scene may ask for are allowed; a blade of its own, or other settings
             # at no other number of steps, have their own step
             if other.blade is None and (scene is self.scene or other.steps != 1):
-                steps = other.steps * round(2 * np.pi / (setup.Omega * setup.h))
+                steps = round(other.steps * self.steps_of_a_turn)
             made = prepare(scene, rom, Omega, steps)
-            setup = replace(made, steps=other.steps * setup.steps) if steps else made
+            setup = replace(made, steps=round(other.steps * setup.steps)) if steps else made
         return Case(scene, rom, other.setup(setup), self.left)
 
     def march(self) -> "Run":
@@ -63,14 +68,13 @@ class Run(Case):
     outcome: Outcome
     departures: dict[str, float] = field(default_factory=dict)  # from a twin, by observable
     errors: dict[str, float] = field(default_factory=dict)  # relative, by observable; where known
+    steps: float = 0.0  # of the run and of those beside it; 0 before ``judged``
     seconds: float = 0.0  # wall time of the run and of those beside it
 
     def beside(self, other: Neighbour) -> Case:
-        """As of a case, for as many revolutions as the run took, and without gauges."""
+        """As of a case, for as many revolutions as the run took."""
         scene = as_long(self.scene, self.outcome.rounds)
-        record = scene.record.model_copy(update={"gauges": None})
-        without = scene.model_copy(update={"record": record})
-        return Case(without, self.rom, self.setup, self.left).beside(other)
+        return Case(scene, self.rom, self.setup, self.left).beside(other)
 
     @property
     def largest_error(self) -> float:

@@ -102,7 +102,7 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
         Phi_t=Phi_t,
         Phi_out=rom.rows(np.array([LEADING, *scene.record.chord])) @ Phi,
         Phi_gauges=evaluate(rom.gauge_rows, Omega)[..., 1:].reshape(-1, rom.n) @ Phi
-        if scene.record.gauges
+        if rom.gauges and scene.record.gauges  # companions have none
         else Phi[:0],
         places=places,
         strips=strips,

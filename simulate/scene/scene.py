@@ -95,10 +95,17 @@ class Scene(SettingsFile):
         description="Compute each speed twice, with gaps that differ by 1e-10, to show which "
         "outputs can be predicted",
     )
+    check: float = Field(
+        default=0.1,
+        ge=0,
+        le=1,
+        description="Share of the steps that second runs may take which bound the error of the "
+        "step where the risk is highest; 0: none",
+    )
     halving: bool = Field(
         default=False,
-        description="Compute each speed again with half the step, in doubt with a quarter, to "
-        "bound the error of the step; a run with a bound above 10 % is `inaccurate`",
+        description="Check each speed, with half the step, in doubt with a quarter; where that "
+        "converges alone it is the result, else a run with a bound above 10 % is `inaccurate`",
     )
     design: str | None = Field(
         default=None,
@@ -135,6 +142,12 @@ class Scene(SettingsFile):
         if self.contact.profile is not None and not self.contact.tangential:
             return "contact.profile without contact.tangential"
         return "casing.harmonics that travel" if self.casing.travelling else None
+
+    @property
+    def checked_share(self) -> float:
+        """``check``; 0 with second runs at each speed, and where these need the same start."""
+        others = self.accuracy or self.halving or self.start or self.speeds.in_turn
+        return self.check if self.record.observables and not others else 0.0
 
     @property
     def directions(self) -> str:

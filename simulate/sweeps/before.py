@@ -13,7 +13,7 @@ from simulate.sweeps.dataset import left_of, require_rom
 
 SAME_SPEED = 1e-9  # relative
 # Keys in which a run that goes on may differ from the one before
-MAY_DIFFER = {"speeds", "rounds", "until", "record", "peaks", "twin", "start"}
+MAY_DIFFER = {"speeds", "rounds", "until", "record", "peaks", "twin", "check", "start"}
 OF_LINER = ("strips", "rods_per_round", "thickness_m")  # keys that a worn liner must have alike
 
 type Before = Callable[[float], Left | Worn | None]  # start of the run at a speed, rad/s
@@ -35,7 +35,7 @@ def before(scene: Scene, rom: Rom, runs: xr.Dataset | None) -> Before:
     if scene.start is None:
         if runs is not None:
             raise SceneError("missing: give the scene to continue from", key="start")
-        return _at_rest
+        return lambda Omega: None
     if runs is None:
         raise SceneError(
             "its sweep is missing: `python -m simulate` takes it with --start, simulate.sweep "
@@ -61,11 +61,6 @@ def before(scene: Scene, rom: Rom, runs: xr.Dataset | None) -> Before:
         return Worn(left.eps_p) if scene.start.liner_only else left
 
     return at
-
-
-def _at_rest(Omega: float) -> None:
-    """Nothing: a run without a `start` begins at rest."""
-    return None
 
 
 def _differences(scene: Scene, before: Scene) -> list[Fault]:

@@ -14,8 +14,8 @@ from geometry.project import Say, silent
 from rom.model import Rom
 from simulate.errors.accuracy import Choice
 from simulate.scene import Peaks, Scene
-from simulate.sweeps.dataset import merge
-from simulate.sweeps.over_speeds import at_speeds, tell_before
+from simulate.sweeps.dataset import checks, merge
+from simulate.sweeps.over_speeds import as_sweep, at_speeds, tell_before
 from simulate.sweeps.peak import Peak, peak_of
 from simulate.sweeps.plausible import doubts_of_runs, warn_of
 
@@ -39,7 +39,8 @@ def sweep(
         When the scene does not fit the reduced model or the step is above its limit.
     """
     tell_before(choice.scene(scene) if choice else scene, rom, report)
-    runs = at_speeds(scene, rom, scene.speeds.omega(rom.f1), report, choice, start)
+    speeds = scene.speeds.omega(rom.f1)
+    runs = as_sweep(at_speeds(scene, rom, speeds, report, choice, start), report, choice)
     return close_in(scene, rom, runs, report, choice, start)
 
 
@@ -56,8 +57,13 @@ def close_in(
     The spacing of the speeds on both sides of each peak is halved until it is at most
     ``scene.peaks.within_over_f1``. Limits that the runs exceed are warned of.
     """
+    known, added = runs, []
     while speeds := halfway(scene.peaks, rom.f1, runs["speed"].values, partial(peak_of, runs, rom)):
-        runs = merge([runs, at_speeds(scene, rom, speeds, report, choice, start)])
+        new = at_speeds(scene, rom, speeds, report, choice, start)
+        runs, added = merge([runs, as_sweep(new, choice=choice, check=False)]), added + new
+    if added:
+        runs = merge([known, as_sweep(added, report, choice)])
+    report(checks(runs))
     warn_of(doubts_of_runs(runs).values())
     return runs
 

@@ -62,18 +62,14 @@ class Cost:
                 f"{WARNING}that is some {duration(self.seconds)}: lower the number of speeds "
                 "(`peaks` adds those that matter), rounds, or integrator.steps_per_round"
             )
-        if self.memory > MUCH * (memory or machine_memory()):
+        machine = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+        if self.memory > MUCH * (memory or machine):
             said.append(
                 f"{WARNING}that is more than {MUCH:.0%} of this machine's memory: lower the number "
                 "of speeds, liner.rods_per_round, record.samples_per_round or the "
                 "recorded revolutions"
             )
         return said
-
-
-def machine_memory() -> float:
-    """Memory of this machine, bytes."""
-    return float(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
 
 
 def cost(scene: Scene, rom: Rom, speeds: int | None = None) -> Cost:

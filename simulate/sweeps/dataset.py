@@ -325,6 +325,13 @@ def statuses(dataset: xr.Dataset) -> dict[str, int]:
     return dict(Counter(map(str, dataset["status"].values)))
 
 
+def checks(dataset: xr.Dataset) -> str:
+    """At how many speeds the error of a sweep is known, and the largest."""
+    known = dataset["error"].max("observable").dropna(SPEED) if "error" in dataset else []
+    largest = f"; largest error {float(max(known)):.2g}" if len(known) else ""
+    return f"checked at {len(known)} of {dataset.sizes[SPEED]} speeds{largest}"
+
+
 def scene_of(dataset: xr.Dataset) -> Scene:
     """The scene that a sweep was run from.
 
@@ -360,8 +367,10 @@ def entry(
 def of_run(run: Run) -> xr.Dataset:
     """One run as a dataset with a speed axis of length one."""
     values = _of_march(run) | _energies(run) | _asked_for(run)
-    for name, by_observable in {"departure": run.departures, "error": run.errors}.items():
-        if by_observable:
+    checks = run.scene.checked_share or run.scene.halving
+    unknown = dict.fromkeys(run.scene.record.observables, np.nan) if checks else {}
+    for name, found in {"departure": run.departures, "error": run.errors}.items():
+        if by_observable := found or unknown:
             values |= {name: [*by_observable.values()], "observable": [*by_observable]}
     left = run.outcome.left if run.scene.record.end else None
     return _dataset(run.scene, values).assign(of_left(left) if left else {})
@@ -372,8 +381,8 @@ def _dataset(scene: Scene, values: dict[str, Any]) -> xr.Dataset:
     said = {
         "record": scene.record,
         "of_friction": OF_FRICTION if scene.contact.friction is not None else "",
-        "second_run": "half the step, or a quarter in doubt"
-        if scene.halving
+        "second_run": "twice, half or a quarter of the step; nan where it is not checked"
+        if scene.checked_share or scene.halving
         else "a coarser companion run",
     }
     coords = {

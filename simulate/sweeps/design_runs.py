@@ -30,6 +30,7 @@ from geometry.project import (
 from geometry.stored import read, write as save
 from rom.model import Rom
 from simulate.errors.accuracy import Choice
+from simulate.errors.checked import checked
 from simulate.errors.observables import NUMBERS, last_spectrum, numbers
 from simulate.errors.run import Run
 from simulate.errors.signals import amplitude
@@ -77,7 +78,7 @@ COLUMNS = {  # numbers of each run: type, unit, meaning
     "casing_work": (SINGLE, "J", "work of the casing on the rods"),
     "numerical": (SINGLE, "J", "energy created (> 0) or lost (< 0) by the scheme"),
     "departure": (SINGLE, "1", "largest relative difference from the twin run; nan without"),
-    "error": (SINGLE, "1", "largest relative error, estimated; nan without accuracy or halving"),
+    "error": (SINGLE, "1", "largest relative error, estimated; nan of runs that are not checked"),
     "seconds": (SINGLE, "s", "wall time of the run and of its second runs"),
     "amplitudes": (SINGLE, "m", "amplitude of u_r at xi = 1/16 along each engine order"),
 }
@@ -159,19 +160,32 @@ class Engine:
         lengths = {"amplitudes": (len(self.orders),)}
         return np.dtype([(name, of, lengths.get(name, ())) for name, (of, *_) in COLUMNS.items()])
 
-    def march_row(self, scene: Scene, report: Say = silent) -> NDArray:
-        """Numbers of the runs of one row, speeds ascending, closed in on the peaks asked for."""
-        runs, speeds = np.zeros(0, self.row_type), scene.speeds.omega(self.rom.f1).tolist()
-        while speeds:
-            new = [self._march(scene, Omega, report) for Omega in speeds]
-            runs = np.sort(np.concatenate([runs, np.array(new, self.row_type)]), order="speed")
-            speeds = halfway(scene.peaks, self.rom.f1, runs["speed"], self.peaks_among(runs, scene))
-        return runs
+    def march_row(
+        self, scene: Scene, report: Say = silent, left: float = 0.0
+    ) -> tuple[NDArray, float]:
+        """Numbers of the runs of one row, speeds ascending, closed in on the peaks asked for.
 
-    def _march(self, scene: Scene, Omega: float, report: Say) -> tuple:
+        And what checks of other rows may take of the steps, with what those before ``left``.
+        """
+        runs, speeds = [], scene.speeds.omega(self.rom.f1).tolist()
+        while speeds:
+            runs += [self._march(scene, Omega, report) for Omega in speeds]
+            known = self._table(runs)
+            speeds = halfway(
+                scene.peaks, self.rom.f1, known["speed"], self.peaks_among(known, scene)
+            )
+        runs, left = checked(runs, scene.checked_share, left, report)
+        return self._table(runs), left
+
+    def _march(self, scene: Scene, Omega: float, report: Say) -> Run:
         run = march_one(set_up(scene, self.rom, Omega, self.choice), self.choice)
         report(run.line)
-        return _numbers(run, self.orders)
+        return run
+
+    def _table(self, runs: Iterable[Run]) -> NDArray:
+        """Numbers of ``runs``, speeds ascending."""
+        numbers = np.array([_numbers(run, self.orders) for run in runs], self.row_type)
+        return np.sort(numbers, order="speed")
 
     def peaks_among(self, runs: NDArray, scene: Scene) -> Callable[[int], Peak | None]:
         """Function that finds the peak of a row along an engine order."""
@@ -257,10 +271,11 @@ def march_block(
     missing = [i for i in own if keys[i] not in done]
     engine.require(missing, partial(check_steps, rom=engine.rom, choice=engine.choice))
     once, new, begun = {keys[i]: i for i in missing}, {}, monotonic()  # rows may stand twice
-    saved = begun
+    saved, left = begun, 0.0  # steps for checks
     try:
         for count, (key, i) in enumerate(once.items(), 1):
-            new[key] = done[key] = engine.march_row(engine.scenes[i])
+            new[key], left = engine.march_row(engine.scenes[i], left=left)
+            done[key] = new[key]
             far = progress.left(count, len(once), monotonic() - begun)
             report(f"{_line(i + 1, done[key])}; design {far}")
             if monotonic() - saved > SAVED_EVERY:

@@ -9,6 +9,7 @@ import xarray as xr
 from geometry.project import Say, progress, silent
 from rom.model import Rom
 from simulate.errors.accuracy import Choice, march_to_accuracy
+from simulate.errors.checked import checked
 from simulate.errors.neighbours import judged
 from simulate.errors.resolution import check_resolution
 from simulate.errors.run import Case, Run
@@ -65,8 +66,8 @@ def at_speeds(
     report: Say = silent,
     choice: Choice | None = None,
     start: xr.Dataset | None = None,
-) -> xr.Dataset:
-    """Run a scene that ``tell_before`` has checked at ``speeds`` (rad/s).
+) -> list[Run]:
+    """Runs of a scene that ``tell_before`` has checked at ``speeds`` (rad/s).
 
     All set-ups are made before the first run. Speeds in turn end with the first run that leaves
     nothing to go on from.
@@ -94,12 +95,23 @@ def at_speeds(
         run = march_one(replace(case, left=last or case.left), choice)
         far = progress.left(done, len(cases), perf_counter() - begun)
         report(f"{run.line}; speed {far}")
-        runs.append(of_run(run))
+        runs.append(run)
         last = run.outcome.left if in_turn else None
         if in_turn and last is None:
             break
-    merged = xr.concat(runs, dim="speed_over_f1", join="outer")
-    merged = merged.sortby("speed_over_f1") if in_turn else merged
+    return runs
+
+
+def as_sweep(
+    runs: Sequence[Run],
+    report: Say = silent,
+    choice: Choice | None = None,
+    check: bool = True,
+) -> xr.Dataset:
+    """The ``runs`` of a scene as a dataset, speeds ascending; some are checked beforehand."""
+    scene, rom = runs[0].scene, runs[0].rom
+    found, _ = checked(runs, scene.checked_share if check else 0.0, report=report)
+    merged = xr.concat([of_run(run) for run in found], dim="speed_over_f1", join="outer")
     return merged.assign_attrs(attributes(scene, rom, choice))
 
 

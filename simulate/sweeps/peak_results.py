@@ -38,7 +38,7 @@ from simulate.errors.signals import gaps_at_ends, leading_wear, lobe_count
 from simulate.marching import SENSITIVE_FROM, WITH_RESULT, prepare
 from simulate.scene import OF_LAST_ROUNDS, Scene
 from simulate.sweeps.before import before
-from simulate.sweeps.dataset import course, scene_of, statuses
+from simulate.sweeps.dataset import checks, course, scene_of, statuses
 from simulate.sweeps.peak import Peak, along_order, crossing, reported
 
 OF_MOTION = {name: name for name in ("amplitude", "displacement")}
@@ -87,6 +87,7 @@ def of_sweep(runs: xr.Dataset, rom: Rom, doubt: Doubt, found: list[Peak]) -> dic
         "f1_Hz": runs.attrs["f1_Hz"],
         "gap_m": runs.attrs["gap_m"],
         "status": dict(sorted(statuses(runs).items())),
+        "checks": checks(runs),
         "sweep_s": float(runs["seconds"].sum()),
         "dofs": rom.n,
         "doubt": doubt._asdict(),

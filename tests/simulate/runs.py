@@ -6,7 +6,7 @@ import numpy as np
 
 from simulate.errors.run import Run
 from simulate.marching import check_scene, march, prepare
-from simulate.sweeps.over_speeds import at_speeds
+from simulate.sweeps.over_speeds import as_sweep, at_speeds
 
 
 def rad_s(rom, over_f1):
@@ -32,7 +32,7 @@ def marched(case, rom, over_f1=0.3):
 def swept(case, rom):
     """The scene's sweep, checked, without speeds added around peaks."""
     check_scene(case, rom)
-    return at_speeds(case, rom, case.speeds.omega(rom.f1))
+    return as_sweep(at_speeds(case, rom, case.speeds.omega(rom.f1)))
 
 
 def assert_is_that_of_the_peer(of_peer, case, rom, over_f1, most):

@@ -40,7 +40,7 @@ from simulate.errors.observables import differences
 from simulate.errors.run import Case, Run
 from simulate.marching import SceneError, march, prepare
 from simulate.sweeps.dataset import scene_of
-from simulate.sweeps.over_speeds import at_speeds, check_sweep, march_one, set_up
+from simulate.sweeps.over_speeds import as_sweep, at_speeds, check_sweep, march_one, set_up
 
 pytestmark = pytest.mark.slow
 
@@ -239,7 +239,7 @@ def test_a_choice_is_recorded_with_the_errors_of_every_run(asking, tmp_path):
     assert (again.basis_error, again.mesh_error) == (0.001, 0.002)
     assert max(choice.observed.values()) <= ASKED and choice.expected <= ASKED
     assert all(times >= companion.TIMES for times in choice.times.values())
-    runs = at_speeds(case, rom, case.speeds.omega(rom.f1), choice=again)
+    runs = as_sweep(at_speeds(case, rom, case.speeds.omega(rom.f1), choice=again), choice=again)
     assert json.loads(runs.attrs["accuracy"]) == choice.plain()
     assert scene_of(runs) == choice.scene(case)
     assert runs.sizes["strip"] == choice.strips == scene_of(runs).liner.m

@@ -21,7 +21,7 @@ from simulate.sweeps.dataset import (
     save,
     scene_of,
 )
-from simulate.sweeps.over_speeds import at_speeds
+from simulate.sweeps.over_speeds import as_sweep, at_speeds
 
 ROUND_TIP = {"contact__profile": {"edge_drop_m": 2e-5}, "contact__tangential": True}
 
@@ -101,7 +101,7 @@ def test_runs_are_found_among_the_speeds_of_their_scene(coarse_rom):
     """To the last bit, by the function that makes the index."""
     case = scene(rounds=1, speeds={"over_f1": {"first": 0.061, "last": 0.39, "count": 151}})
     Omega = case.speeds.omega(coarse_rom.f1)
-    kept = at_speeds(case, coarse_rom, Omega[1::50])
+    kept = as_sweep(at_speeds(case, coarse_rom, Omega[1::50]))
     assert np.isin(kept["speed_over_f1"], over_f1(Omega, coarse_rom)).all()
     given = case.speeds.over_f1.values()[1::50]
     np.testing.assert_allclose(kept["speed_over_f1"], given, rtol=0, atol=1e-12)
@@ -210,7 +210,7 @@ def test_blocks_merge_into_the_sweep(coarse_rom, tmp_path):
     whole = swept(case, coarse_rom)
     for block in range(2):
         speeds = case.speeds.omega(coarse_rom.f1)[block::2]
-        save(at_speeds(case, coarse_rom, speeds), tmp_path / f"{block}.nc")
+        save(as_sweep(at_speeds(case, coarse_rom, speeds)), tmp_path / f"{block}.nc")
     merged = merge([load(tmp_path / f"{block}.nc") for block in (1, 0)])
     assert scene_of(merged) == case
     assert merged.departure.dims == ("speed_over_f1", "observable")

@@ -11,7 +11,8 @@ from scenes import EXACT, scene
 from geometry.project import SettingsError
 from rom.coarser import coarser
 from rom.polynomial import evaluate
-from simulate.errors.neighbours import TWIN
+from simulate.errors.neighbour import Neighbour
+from simulate.errors.neighbours import QUARTER
 from simulate.errors.run import Case
 from simulate.marching import SceneError, check_scene, prepare
 from simulate.scene import Record
@@ -112,11 +113,12 @@ def test_a_blade_that_touches_nothing_reads_rotation_alone(rom):
     assert (alone["gauge_strain"] == 0).all() and (alone["gauge_strain_static"] != 0).all()
 
 
-def test_second_runs_and_runs_at_peaks_have_no_gauges(kept, rom):
-    """They would cost time, and coarser models have none."""
+def test_runs_of_other_models_and_at_peaks_have_no_gauges(kept, rom):
+    """But those with another step, whose run may become the result."""
     run = Case(case(), rom, prepare(case(), rom, rom.omega1 * 0.3)).march()
-    twin = run.beside(TWIN)
-    assert twin.scene.record.gauges is None and np.isnan(twin.march().outcome.gauges).all()
+    coarse = run.beside(Neighbour("coarser", rom=lambda rom: coarser(rom)[0])).march()
+    assert coarse.outcome.gauges.size == 0
+    assert np.isfinite(run.beside(QUARTER).march().outcome.gauges).all()
     assert np.isfinite(run.outcome.gauges).all()
     twice = swept(case(twin=True, integrator=EXACT, record={"states_rounds": None}), rom)
     assert set(twice["status"].values) <= {"ok", "sensitive"}

@@ -10,7 +10,7 @@ from scenes import of_steps, scene
 from simulate.errors.loads import mean_force, mean_opening, tangential_moment, torque, worn_volume
 from simulate.marching import march, prepare
 from simulate.sweeps import over_speeds
-from simulate.sweeps.over_speeds import at_speeds
+from simulate.sweeps.over_speeds import as_sweep, at_speeds
 
 E, K, UNIT = 1.0, 0.45, 2e7  # of the liner
 THICKNESS, FOOTPRINT, GAP = 5e-3, 5e-3, 2e-5
@@ -109,10 +109,10 @@ def test_torque_is_recorded_with_the_forces_and_alone_costs_no_variable(rigid, m
     # a rigid blade has no first mode that steps could resolve
     monkeypatch.setattr(over_speeds, "check_resolution", lambda *_: None)
     case = scene(**EXACT | {"liner__law": LAWS["elastic"], "rounds": 2})
-    runs = at_speeds(case, rigid, [100.0])
+    runs = as_sweep(at_speeds(case, rigid, [100.0]))
     assert runs["torque"].dims == ("speed_over_f1", "round")
     assert runs["torque"].attrs["units"] == "N m"
     casing = runs["ledger"].sel(energy="casing").item()
     assert runs["torque"].sum().item() == pytest.approx(casing / (2 * np.pi), rel=1e-12)
     lean = case.but(record__contact_force=False)
-    assert "torque" not in at_speeds(lean, rigid, [100.0])
+    assert "torque" not in as_sweep(at_speeds(lean, rigid, [100.0]))

@@ -4,7 +4,7 @@ import numpy as np
 from scenes import scene
 
 from simulate.sweeps.closing_in import close_in, sweep
-from simulate.sweeps.over_speeds import at_speeds
+from simulate.sweeps.over_speeds import as_sweep, at_speeds
 from simulate.sweeps.peak import along_order, peak_of
 
 ORDERS = {"record__spectrum_rounds": 1, "peaks": {"orders": [4], "within_over_f1": 2e-3}}
@@ -13,7 +13,7 @@ ORDERS = {"record__spectrum_rounds": 1, "peaks": {"orders": [4], "within_over_f1
 def test_speeds_are_added_around_the_peak_up_to_the_spacing_asked_for(coarse_rom):
     speeds = {"first": 0.3, "last": 0.38, "count": 9}
     case = scene(speeds__over_f1=speeds, **ORDERS)
-    coarse = at_speeds(case, coarse_rom, case.speeds.omega(coarse_rom.f1))
+    coarse = as_sweep(at_speeds(case, coarse_rom, case.speeds.omega(coarse_rom.f1)))
     fine = sweep(case, coarse_rom)
     first, last = (peak_of(found, coarse_rom, 4) for found in (coarse, fine))
     over_f1 = fine["speed_over_f1"].values
@@ -29,5 +29,5 @@ def test_speeds_are_added_around_the_peak_up_to_the_spacing_asked_for(coarse_rom
 
 def test_without_peaks_a_sweep_is_left_as_it_is(coarse_rom):
     case = scene(rounds=1)
-    found = at_speeds(case, coarse_rom, case.speeds.omega(coarse_rom.f1))
+    found = as_sweep(at_speeds(case, coarse_rom, case.speeds.omega(coarse_rom.f1)))
     assert close_in(case, coarse_rom, found) is found

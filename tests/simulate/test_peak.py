@@ -110,10 +110,13 @@ def test_runs_are_printed_in_a_few_lines(coarse_rom):
     status = np.where(SPEEDS < 0.11, "diverged", "ok")
     rad_s = 2 * np.pi * coarse_rom.f1 * SPEEDS
     made = runs.assign(status=("speed_over_f1", status), speed=("speed_over_f1", rad_s))
-    heading, ends, *peaks = str(Runs(made.assign_attrs(blade="coarse"), coarse_rom)).splitlines()
+    heading, ends, checks, *peaks = str(
+        Runs(made.assign_attrs(blade="coarse"), coarse_rom)
+    ).splitlines()
     rpm = 60 * coarse_rom.f1
     assert heading == (f"Runs of blade coarse: 301 speeds, {0.1 * rpm:.0f} to {0.4 * rpm:.0f} rpm")
     assert ends == "diverged: 10, ok: 291"
+    assert checks == "checked at 0 of 301 speeds"
     four, six = peaks
     assert four.startswith(f"EO 4: peak at {0.34 * rpm:.0f} rpm, ") and four.endswith(" 2 gaps")
     assert six.startswith("EO 6: ")

@@ -15,7 +15,7 @@ from simulate.errors.neighbour import CHAOTIC, ONE_MOTION, TWO_MOTIONS
 from simulate.errors.neighbours import raised
 from simulate.errors.observables import NUMBERS
 from simulate.marching import prepare
-from simulate.sweeps.over_speeds import at_speeds
+from simulate.sweeps.over_speeds import as_sweep, at_speeds
 from simulate.sweeps.peak import Peak, crossing, peak_of
 from simulate.sweeps.peak_results import (
     CROSSED,
@@ -61,7 +61,9 @@ def edge(coarse_rom):
     case = scene(**FOLD)
 
     def amplitude(share):
-        runs = at_speeds(case, raised(share).rom(coarse_rom), case.speeds.omega(coarse_rom.f1))
+        runs = as_sweep(
+            at_speeds(case, raised(share).rom(coarse_rom), case.speeds.omega(coarse_rom.f1))
+        )
         return float(runs["spectrum"].sel(engine_order=4).item())
 
     high, low = 3e-3, -3e-3  # the frequency falls below that at which it can follow
@@ -75,7 +77,7 @@ def edge(coarse_rom):
 
 def test_a_peak_with_two_motions_gives_both(edge, coarse_rom):
     """Frequencies uncertain by 4e-5."""
-    runs = at_speeds(scene(**FOLD), edge, scene(**FOLD).speeds.omega(coarse_rom.f1))
+    runs = as_sweep(at_speeds(scene(**FOLD), edge, scene(**FOLD).speeds.omega(coarse_rom.f1)))
     (peak,) = results(runs, edge, CALM)
     assert peak.verdict == TWO_MOTIONS
     assert largest(change(peak.numbers, peak.other)) > 0.3
@@ -115,7 +117,7 @@ def test_a_jump_within_the_last_digits_is_found_with_a_coarse_mesh(edge, coarse_
     """At the same speed, as where a scene gives speeds in rad/s: the fold does not go along."""
     Omega = float(scene(**FOLD).speeds.omega(coarse_rom.f1)[0])
     case = scene(**FOLD | {"speeds": {"rad_s": [Omega]}})
-    (peak,) = results(at_speeds(case, edge, [Omega]), edge, Doubt(None, 0.02))
+    (peak,) = results(as_sweep(at_speeds(case, edge, [Omega])), edge, Doubt(None, 0.02))
     assert peak.verdict == TWO_MOTIONS
 
 

@@ -2,6 +2,7 @@
 
 from contextlib import nullcontext
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -136,7 +137,8 @@ def test_a_run_alone_that_has_lost_energy_is_inaccurate(coarse_rom, case, limit)
     assert lossy(0.05).ledger.numerical == pytest.approx(-0.5)
 
     def status(of, **errors):
-        return judged(Run(case, coarse_rom, None, outcome=of, errors=errors)).outcome.status
+        setup = SimpleNamespace(steps=640)
+        return judged(Run(case, coarse_rom, setup, outcome=of, errors=errors)).outcome.status
 
     # what is created is `unstable` from a tenth on
     shares = {0.9 * limit: "ok", 1.1 * limit: "inaccurate", -0.05: "ok"}

@@ -17,7 +17,7 @@ from fem.fields import fields
 from rom.reconstruct import Basis
 from simulate.errors.signals import leading_gap
 from simulate.scene import Scene
-from simulate.sweeps.over_speeds import at_speeds
+from simulate.sweeps.over_speeds import as_sweep, at_speeds
 from simulate.sweeps.peak import crossing
 from simulate.sweeps.peak_results import CROSSED
 from workflow.explore import page as pack
@@ -50,7 +50,7 @@ def response(coarse_rom):
         liner__strips=8,
     )
     speeds = 2 * np.pi * coarse_rom.f1 * np.array(SPEEDS)
-    return Response(at_speeds(scene, coarse_rom, speeds), coarse_rom)
+    return Response(as_sweep(at_speeds(scene, coarse_rom, speeds)), coarse_rom)
 
 
 @pytest.fixture(scope="module")

@@ -6,7 +6,7 @@ from projects import ROOT
 from scenes import scene
 
 from rom.reduce import reduce
-from simulate.sweeps.over_speeds import at_speeds
+from simulate.sweeps.over_speeds import as_sweep, at_speeds
 from workflow.figures import loads, table
 from workflow.figures.response import Response
 
@@ -31,7 +31,7 @@ def loads_of(coarse_matrices, coarse_blade):
 
     def of(without=(), **changes):
         case = scene(rounds=3, integrator=EXACT, record__contact_force=True, **changes)
-        runs = at_speeds(case, rom, 2 * np.pi * rom.f1 * np.array([0.33, 0.34]))
+        runs = as_sweep(at_speeds(case, rom, 2 * np.pi * rom.f1 * np.array([0.33, 0.34])))
         assert (runs["status"] == "ok").all()
         told = {"scene": "mine", "peaks": []}
         return loads.loads_of(Response(runs.drop_vars(without), rom), told, None)

@@ -8,7 +8,7 @@ from scenes import scene
 
 from geometry.project import UserError
 from simulate.errors.signals import leading_gap, leading_wear
-from simulate.sweeps.over_speeds import at_speeds
+from simulate.sweeps.over_speeds import as_sweep, at_speeds
 from workflow.explore import rub
 
 SPEED = 0.36
@@ -25,7 +25,7 @@ def marched(case, coarse_rom):
 
 
 def test_the_rounds_are_those_of_the_run_in_one_piece(case, coarse_rom, marched):
-    whole = at_speeds(case, coarse_rom, [2 * np.pi * coarse_rom.f1 * SPEED])
+    whole = as_sweep(at_speeds(case, coarse_rom, [2 * np.pi * coarse_rom.f1 * SPEED]))
     gap = leading_gap(whole)
     np.testing.assert_array_equal(marched.u_r.ravel(), whole["history"].values[0, 0] / gap)
     np.testing.assert_allclose(marched.wear[-1], leading_wear(whole)[0] / gap, rtol=1e-6)  # single
@@ -54,7 +54,7 @@ def test_the_casing_distorts_over_its_ramp(case, marched):
 def test_a_scene_goes_on_from_what_it_starts_from(case, coarse_rom):
     """Three rounds and then two, as five in one piece; the first liner is the one left."""
     Omega = 2 * np.pi * coarse_rom.f1 * SPEED
-    first = at_speeds(case.but(rounds=3, record={"end": True}), coarse_rom, [Omega])
+    first = as_sweep(at_speeds(case.but(rounds=3, record={"end": True}), coarse_rom, [Omega]))
     on = case.but(rounds=2, start={"scene": "first"})
     one = rub.by_rounds(case.but(rounds=5), coarse_rom, SPEED)
     both = rub.by_rounds(on, coarse_rom, SPEED, start=first)

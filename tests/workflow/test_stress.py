@@ -12,7 +12,7 @@ from fem.solid import read_solid
 from geometry.blade import RPM, Fatigue
 from rom.reconstruct import Basis
 from simulate.scene import GROWING, Scene
-from simulate.sweeps.over_speeds import at_speeds
+from simulate.sweeps.over_speeds import as_sweep, at_speeds
 from workflow import stress as job
 from workflow.stress import cycles, numbers, worst
 
@@ -32,7 +32,7 @@ def sweep(coarse_rom):
         liner__strips=8,
     )
     speeds = 2 * np.pi * coarse_rom.f1 * np.array(SPEEDS)
-    runs = at_speeds(scene, coarse_rom, speeds)
+    runs = as_sweep(at_speeds(scene, coarse_rom, speeds))
     return runs.assign(trend=("speed_over_f1", ["steady", GROWING, "steady"]))
 
 

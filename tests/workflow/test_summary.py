@@ -44,6 +44,7 @@ OF = {
     "gap_m": 2e-5,
     "status": {"ok": 40, "diverged": 1},
     "sweep_s": 30.0,
+    "checks": "checked at 4 of 41 speeds; largest error 0.021",
     "dofs": 76,
     "crossings": {"4": 0.31},
     "reasons": [],

@@ -113,7 +113,7 @@ def tables(response: Response) -> list[dict[str, Any]]:
         ("departure", "relative difference from the twin run"),
         ("error", "relative error"),
     ):
-        if name in sweep:
+        if name in sweep and sweep[name].notnull().any():
             of = {one: told(sweep[name].sel(observable=one).values) for one in response.observables}
             found.append({"says": says, "of": of})
     return found

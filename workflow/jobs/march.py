@@ -8,7 +8,7 @@ from simulate.errors import accuracy
 from simulate.errors.accuracy import Choice
 from simulate.scene import Scene
 from simulate.sweeps.dataset import Sweep, save
-from simulate.sweeps.over_speeds import at_speeds, check_sweep, tell_before
+from simulate.sweeps.over_speeds import as_sweep, at_speeds, check_sweep, tell_before
 
 
 def check(scene: Scene, rom: Rom, now: Say) -> None:
@@ -35,4 +35,4 @@ def block(
 ) -> None:
     """Run one of the ``blocks`` of the speeds of a scene."""
     speeds = scene.speeds.omega(rom.f1)[int(names["block"]) :: blocks]  # all blocks cost the same
-    save(at_speeds(scene, rom, speeds, tell, settings, start), runs)
+    save(as_sweep(at_speeds(scene, rom, speeds, tell, settings, start), tell, settings), runs)

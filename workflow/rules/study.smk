@@ -8,7 +8,11 @@ STUDIES = {
     "study_bases": "results/experiments/bases/table.md",
     "study_bars": "results/experiments/bars/table.md",
     "study_rotor37": "results/experiments/frequencies/table.md",
-    "stability": ["results/figures/stability.png", "results/figures/stability-matrix.json"],
+    "stability": [
+        "results/figures/stability.png",
+        "results/figures/stability-matrix.json",
+        "results/figures/stability-sweeps.json",
+    ],
     "trade": [
         "results/experiments/trade/table.md",
         *(f"results/{name}.png" for name in FIGURES.rows if name.startswith("trade/")),

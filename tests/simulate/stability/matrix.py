@@ -14,7 +14,7 @@ of the two does not count as an error of the run.
 """
 
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from time import process_time
 from typing import Any, NamedTuple
@@ -24,22 +24,22 @@ from numpy.typing import NDArray
 
 from geometry.project import SettingsError, UserError, check_settings
 from rom.model import Rom
+from simulate.errors.checked import checked
 from simulate.errors.neighbour import Neighbour
 from simulate.errors.neighbours import judged
 from simulate.errors.observables import Observables, apart, observables
-from simulate.errors.resolution import check_resolution
+from simulate.errors.resolution import check_resolution, risk
 from simulate.errors.run import Case as Marched, Run
 from simulate.marching import (
     STATED,
     TO_THE_END,
-    WITH_RESULT,
     SceneError,
     Setup,
     check_scene,
     prepare,
 )
 from simulate.scene import CentralDifference, PiecewiseExact, Scene
-from tests.simulate.stability.cases import BEFORE, EXACT, EXPLICIT, SAMPLES, Case, draw, now
+from tests.simulate.stability.cases import EXACT, EXPLICIT, SAMPLES, Case, draw, now
 
 CASES = 1000
 FINE = 0.1  # largest step of the references over the limit
@@ -145,12 +145,15 @@ class End:
     """Outcome of a case."""
 
     plain: Verdict
+    default: Verdict  # with a check where it is risky, as of a sweep of one speed
     checked: Verdict  # with all checks
     message: str = ""  # of a refusal
     steps: int = 0  # marched
+    risk: float = 0.0
+    cost: float = 0.0  # steps of the check by default, over those of the run
     contact: bool = False
     numerical: float = 0.0  # energy over the casing's work
-    bound: dict[str, float] = field(default_factory=dict)  # of the relative error, by halving
+    bound: dict[str, float] = field(default_factory=dict)  # of the relative error, by all checks
     error: dict[str, float] = field(default_factory=dict)  # relative, against the reference
     spread: dict[str, float] = field(default_factory=dict)  # of the reference
     accurate: bool | None = None  # within a tenth of the reference; None without one
@@ -162,38 +165,43 @@ def judge_case(case: Case, rom: Rom) -> End:
         of = ready(case, rom)
     except (SettingsError, SceneError) as error:
         refused = _refused(error)
-        return End(refused, refused, str(error))
-    alone, run = of.case, of.case.march()
+        return End(refused, refused, refused, str(error))
+    run = judged(of.case.march())
     outcome, ledger = run.outcome, run.outcome.ledger
-    known = _against_references(of, run) if outcome.status in TO_THE_END else {}
-    with_all = replace(run, scene=run.scene.but(twin=True, halving=True))
-    plain, _ = _verdict(run, known.get("accurate"))
-    checked, bound = _verdict(with_all, known.get("accurate"))
+    exact = references(of) if outcome.status in TO_THE_END else ()
+    (by_default,), _ = checked([run], run.scene.checked_share)
+    alone, with_all = _refusal(run, halving=False), _refusal(run, halving=True)
+    best = judged(replace(run, scene=run.scene.but(twin=True, halving=True)))
     return End(
-        plain,
-        checked,
-        steps=alone.setup.steps * alone.scene.rounds,
+        alone or _verdict(run, exact),
+        alone or _verdict(by_default, exact),
+        with_all or _verdict(best, exact),
+        steps=run.setup.steps * run.scene.rounds,
+        risk=risk(run),
+        cost=0.0 if alone else by_default.steps / run.steps - 1,
         contact=outcome.contact_share > 0,
         numerical=ledger.numerical / ledger.casing if ledger.casing else 0.0,
-        bound=bound,
-        **known,
+        bound=best.errors,
+        **_against(exact, run),
     )
 
 
-def _verdict(of: Run, accurate: bool | None) -> tuple[Verdict, dict[str, float]]:
-    """Verdict on a run by the checks of its scene, and the bounds of its error that these give."""
+def _refusal(run: Run, halving: bool) -> Verdict | None:
+    """Refusal of the step of a run; None where it is not too long."""
     try:
-        check_resolution(of.scene, of.setup)
+        check_resolution(run.scene.but(halving=halving), run.setup)
     except SceneError as error:
-        return _refused(error), {}
-    status, bound = of.outcome.status, {}
-    if status in WITH_RESULT:
-        found = judged(of)
-        status, bound = found.outcome.status, found.errors
+        return _refused(error)
+    return None
+
+
+def _verdict(run: Run, exact: Sequence[Run]) -> Verdict:
+    """Verdict on a judged run beside its references."""
+    status = run.outcome.status
     if status not in ("ok", "no-contact"):
-        return Verdict("flagged", status), bound
-    kind = {None: "unjudged", True: "right", False: "wrong"}[accurate]
-    return Verdict(kind, status), bound
+        return Verdict("flagged", status)
+    accurate = _against(exact, run)["accurate"]
+    return Verdict({None: "unjudged", True: "right", False: "wrong"}[accurate], status)
 
 
 def _refused(error: UserError) -> Verdict:
@@ -202,12 +210,13 @@ def _refused(error: UserError) -> Verdict:
     return Verdict("refused" if named else "wrong", error.key)
 
 
-def _against_references(of: Ready, run: Run) -> dict[str, Any]:
+def _against(exact: Sequence[Run], run: Run) -> dict[str, Any]:
     """Errors of a run, difference of its references, and whether it is accurate."""
-    runs = references(of)
-    own, one, other = map(observables, (run, *runs))
+    if not exact:
+        return {"error": {}, "spread": {}, "accurate": None}
+    own, one, other = map(observables, (run, *exact))
     error, spread = apart(own, _nearest(own, one, other)), apart(one, other)
-    usable = all(of.outcome.status in TO_THE_END for of in runs)  # checked by their difference
+    usable = all(of.outcome.status in TO_THE_END for of in exact)  # checked by their difference
     known = usable and max(spread.values()) <= STATED
     accurate = max(error.values()) <= STATED if known else None
     return {"error": error, "spread": spread, "accurate": accurate}
@@ -228,27 +237,25 @@ def _closest_between(
 
 
 def numbers(files: Any) -> dict[str, Any]:
-    """All cases on the reduced model ``files.rom``, by drawing: counts by outcome, each case."""
+    """All cases on the reduced model ``files.rom``: counts by outcome, and each case."""
     start, rom = process_time(), Rom.load(files.rom)
-    drawings = {"now": now(len(rom.xi)), "before": BEFORE}
-    judged = {
-        name: [judge_case(draw(number, drawing), rom) for number in range(CASES)]
-        for name, drawing in drawings.items()
-    }
-    found = {
-        name: counts(ends) | {"ends": [asdict(end) for end in ends]}
-        for name, ends in judged.items()
-    }
+    drawing = now(len(rom.xi))
+    ends = [judge_case(draw(number, drawing), rom) for number in range(CASES)]
+    found = counts(ends) | {"ends": [asdict(end) for end in ends]}
     return found | {"cpu_seconds": process_time() - start}
 
 
 def counts(ends: Iterable[End]) -> dict[str, Any]:
-    """Counts of the cases, as plain runs and with all checks."""
+    """Counts of the cases, as plain runs, by default and with all checks; cost of the default."""
     ends = list(ends)
     return {
         "cases": len(ends),
-        "plain": _counts([(end.plain, end) for end in ends]),
-        "checked": _counts([(end.checked, end) for end in ends]),
+        **{
+            name: _counts([(getattr(end, name), end) for end in ends])
+            for name in ("plain", "default", "checked")
+        },
+        "cost": sum(end.cost * end.steps for end in ends) / max(sum(end.steps for end in ends), 1),
+        "checks": sum(end.cost > 0 for end in ends),
     }
 
 

@@ -1,0 +1,56 @@
+"""Which runs of a sweep or a design are checked by second runs.
+
+First that of the largest response, then by risk, while they take no more than a share of the steps
+of all runs. One risky run is checked beyond that where nothing is overdrawn: so one that stands
+alone is. Beside a run found wrong its neighbours in speed are checked, whatever that takes.
+"""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from time import perf_counter
+
+from geometry.project import Say, silent
+from simulate.errors.neighbours import TWICE, judged
+from simulate.errors.observables import last_spectrum
+from simulate.errors.resolution import RISKY, risk
+from simulate.errors.run import Run
+from simulate.marching import TO_THE_END
+
+
+def checked(
+    runs: Sequence[Run], share: float, left: float = 0.0, report: Say = silent
+) -> tuple[list[Run], float]:
+    """Check some of the ``runs``, speeds ascending; also what is left for others, in steps.
+
+    ``runs`` are ``judged``; ``share``: of their steps that checks may take, beside what others have
+    ``left``.
+    """
+    found = sorted(runs, key=lambda run: run.setup.Omega)
+    left += share * sum(run.steps for run in found)
+    queue, beside_wrong, any_yet = _in_turn(found) if share else [], set(), False
+    while queue:
+        run, begun = found[i := queue.pop(0)], perf_counter()
+        one_more = left >= 0 and not any_yet and risk(run) > RISKY
+        if not (left >= TWICE * run.steps or one_more or i in beside_wrong):
+            continue
+        new, any_yet = judged(run, check=True), True
+        left -= new.steps - run.steps
+        found[i] = replace(new, seconds=run.seconds + perf_counter() - begun)
+        report(f"{found[i].line}; checked")
+        if new.outcome.status == "inaccurate" or new.setup.h != run.setup.h:
+            beside_wrong |= {i - 1, i + 1}
+            queue.sort(key=lambda j: j not in beside_wrong)
+    return found, left
+
+
+def _in_turn(runs: Sequence[Run]) -> list[int]:
+    """Indices of the runs that can be checked: that of the largest response first, then by risk."""
+    able = [i for i, run in enumerate(runs) if run.outcome.status in TO_THE_END]
+    largest = max(able, key=lambda i: _response(runs[i]), default=None)
+    return sorted(able, key=lambda i: (i == largest, risk(runs[i])), reverse=True)
+
+
+def _response(run: Run) -> float:
+    """Largest amplitude of a run, without a spectrum its largest displacement, m."""
+    recorded = run.scene.record.spectrum_rounds
+    return last_spectrum(run)[1:].max() if recorded else run.outcome.each.largest[0]

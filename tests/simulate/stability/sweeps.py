@@ -1,0 +1,90 @@
+"""Sweeps of drawn scenes with the default share of checks: is each reported peak right, or flagged?
+
+Twelve speeds about the crossings of the first mode with EO 3 and 4. Peaks, or the largest response
+where there is none, above a hundredth of the gap, are compared with references at their speed
+(``matrix``). Silently wrong is an amplitude off by over a tenth in a run that is `ok`.
+"""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from itertools import count, islice
+from typing import Any
+
+from geometry.project import SettingsError
+from rom.model import Rom
+from simulate.errors.checked import checked
+from simulate.errors.observables import LEAST, numbers as numbers_of
+from simulate.errors.run import Run
+from simulate.marching import STATED, WITH_RESULT, SceneError
+from simulate.sweeps.over_speeds import as_sweep, at_speeds, check_sweep
+from simulate.sweeps.peak import along_order
+from simulate.sweeps.peak_results import asked
+from tests.simulate.stability.cases import Case, Drawing, draw, now
+from tests.simulate.stability.matrix import Ready, ready, references
+
+SWEEPS = 100
+MIDDLE, SPEEDS = 0.31, {"first": 0.24, "last": 0.38, "count": 12}  # over f1(0)
+SPECTRUM, MOST = 5, 20  # revolutions of the spectrum, and of a run
+RESPONSE = 0.01  # gaps: peaks below are none
+RECORD = {"samples_per_round": 64, "spectrum_rounds": SPECTRUM}
+
+
+def swept(rom: Rom, drawing: Drawing) -> Iterator[dict[str, Any]]:
+    """The drawn scenes that can be swept: number, peaks, and the share of steps of checks."""
+    for number in count():
+        case = draw(number, drawing)
+        try:
+            made = _whole(case, rom)
+            if made:
+                yield {"number": number} | _judged(made, rom)
+        except (SettingsError, SceneError):
+            continue
+
+
+def _whole(case: Case, rom: Rom) -> Ready | None:
+    """The case as a sweep; None where revolutions are too costly."""
+    at_middle = replace(case, scene=case.scene | {"speeds": {"over_f1": [MIDDLE]}, "rounds": MOST})
+    of = ready(at_middle, rom)
+    scene, rounds = of.case.scene, of.case.scene.rounds
+    if rounds < SPECTRUM or of.case.setup.steps != of.case.steps_of_a_turn:
+        return None
+    scene = scene.but(speeds={"over_f1": SPEEDS}, record=RECORD | {"history": None})
+    check_sweep(scene, rom)
+    return Ready(replace(of.case, scene=scene), of.finer)
+
+
+def _judged(of: Ready, rom: Rom) -> dict[str, Any]:
+    """Peaks of a sweep beside their references, and the steps of its checks over those of runs."""
+    scene = of.case.scene
+    runs = at_speeds(scene, rom, scene.speeds.omega(rom.f1))
+    found, _ = checked(runs, scene.checked_share)
+    sweep = as_sweep(found, check=False)
+    beside = [
+        _beside(of, runs[peak.index], found[peak.index], peak.k)
+        for peak in asked(sweep, rom)
+        if along_order(sweep, peak.k)[peak.index] > RESPONSE
+    ]
+    share = sum(run.steps for run in found) / sum(run.steps for run in runs) - 1
+    return {"peaks": [peak for peak in beside if peak["error"] is not None], "share": share}
+
+
+def _beside(of: Ready, run: Run, found: Run, k: int | None) -> dict[str, Any]:
+    """A ``run`` at a peak along ``k``, as its check ``found`` it, beside its references."""
+    status, bound = found.outcome.status, max(found.errors.values(), default=None)
+    told = {"k": k, "status": status, "bound": bound, "error": None, "silent": False}
+    if status not in WITH_RESULT:
+        return told
+    others = references(Ready(replace(of.case, setup=run.setup), of.finer))
+    if not {other.outcome.status for other in others} <= {*WITH_RESULT}:
+        return told
+    own, *exact = (numbers_of(one, k)["amplitude"] for one in (found, *others))
+    if not max(exact) - min(exact) <= STATED * max(exact):
+        return told
+    off = min(abs(own - at) for at in exact) / max(own, *exact, LEAST["spectrum"])
+    return told | {"error": off, "silent": status == "ok" and off > STATED}
+
+
+def numbers(files: Any) -> list[dict[str, Any]]:
+    """The drawn sweeps on the reduced model ``files.rom``."""
+    rom = Rom.load(files.rom)
+    return [*islice(swept(rom, now(len(rom.xi))), SWEEPS)]
