@@ -36,7 +36,7 @@ def checked(
         new, any_yet = judged(run, check=True), True
         left -= new.steps - run.steps
         found[i] = replace(new, seconds=run.seconds + perf_counter() - begun)
-        report(f"{found[i].line}; checked")
+        report(f"{found[i].line}; checked, error {new.largest_error:.2g}")
         if new.outcome.status == "inaccurate" or new.setup.h != run.setup.h:
             beside_wrong |= {i - 1, i + 1}
             queue.sort(key=lambda j: j not in beside_wrong)

@@ -284,6 +284,16 @@ def test_modes_of_shared_speeds_are_found_once(coarse_rom, tmp_path, monkeypatch
     assert len(found) == len(set(found)) > 0
 
 
+def test_checks_take_a_tenth_of_the_steps_of_rows_run_together(coarse_rom, tmp_path):
+    """Of rows with a single speed the first, which is risky, then every fifth."""
+    rows = [f'{0.3 + row / 100},"[0.31]"' for row in range(12)]
+    table = "\n".join(["liner.law.K,speeds.over_f1", *rows, ""])
+    runs = march_block(Engine.of(design(tmp_path, table, check=0.1), coarse_rom), tmp_path)
+    known = np.isfinite(runs["error"].values)
+    assert known[0] and 2 <= known.sum() <= 3 and not known[1:4].any()
+    assert (runs["status"] == STATUSES.index("ok")).all() and runs["error"].max() < 0.05
+
+
 def test_an_accuracy_of_the_scene_gives_each_run_its_error(coarse_rom, tmp_path):
     """As in a sweep with the same choice; the pilot's own runs, of the base, are not taken."""
     values = {"liner__law__unit_Pa": 2e8, "rounds": 1, "accuracy": 0.01, "integrator": None}
