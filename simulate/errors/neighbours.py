@@ -128,7 +128,7 @@ def _found(run: Run, beside: Callable[[Neighbour], Run], check: bool) -> tuple[R
     if not departures and (run.scene.twin or (check and doubtful)):
         departures = differences(run, beside(TWIN))
     result, apart = run, max(departures.values(), default=0.0)
-    if doubtful and apart <= SENSITIVE_FROM:
+    if doubtful and not apart > SENSITIVE_FROM:  # nan of runs without a result
         result, errors, bound = from_quarter(run, half, beside(QUARTER))
     return replace(result, errors=errors, departures=departures), bound
 

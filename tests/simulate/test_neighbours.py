@@ -341,10 +341,12 @@ def test_a_run_is_judged_beside_half_and_in_doubt_a_quarter_of_its_step(beside, 
     assert found.outcome.reason == ("why" if status == "no-contact" else "")
 
 
+@pytest.mark.parametrize("twin", [False, True])
 @pytest.mark.parametrize("case", CONVERGED)
-def test_the_result_is_that_of_a_quarter_of_the_step_where_it_converges_alone(beside, case):
+def test_the_result_is_that_of_a_quarter_of_the_step_where_it_converges_alone(beside, case, twin):
     runs, bound = CONVERGED[case]
-    found = beside(*named(runs), halving=True)
+    run, others = named(runs)
+    found = beside(run, others | ({TWIN.name: run} if twin else {}), halving=True, twin=twin)
     assert found.outcome.status == "ok" and found.outcome.u_r is runs[2].u_r
     assert found.errors == pytest.approx(dict.fromkeys(ALL, bound), rel=1e-9, abs=1e-12)
 
