@@ -24,7 +24,7 @@ from tests.simulate.stability.matrix import Ready, ready, references
 
 SWEEPS = 100
 MIDDLE, SPEEDS = 0.31, {"first": 0.24, "last": 0.38, "count": 12}  # over f1(0)
-SPECTRUM, MOST = 5, 20  # revolutions of the spectrum, and of a run
+SPECTRUM, MOST = 4, 8  # revolutions of the spectrum, and of a run
 RESPONSE = 0.01  # gaps: peaks below are none
 RECORD = {"samples_per_round": 64, "spectrum_rounds": SPECTRUM}
 
