@@ -219,7 +219,10 @@ def save(dataset: xr.Dataset, path: str | Path) -> None:
     geometry.project.errors.WriteError
         When it cannot be written.
     """
-    dated = dataset.assign_attrs(date_created=datetime.now(UTC).isoformat(timespec="seconds"))
+    # the width of texts is that of these runs, not of the block that the first ones were read from
+    dated = dataset.drop_encoding().assign_attrs(
+        date_created=datetime.now(UTC).isoformat(timespec="seconds")
+    )
     packed = {
         name: {"zlib": True, "complevel": 1}
         for name, v in dataset.items()

@@ -203,6 +203,17 @@ def test_another_file_is_no_sweep(coarse_rom, tmp_path):
         assert str(path) in str(refused(ProvenanceError, load, path))
 
 
+def test_a_longer_status_of_another_block_is_kept_whole(coarse_rom, tmp_path):
+    """Files give the width of their texts; that of the first block would cut those of others."""
+    speeds, ends = coarse_rom.omega1 * np.array([0.3, 0.31]), ("ok", "inaccurate")
+    for speed, status in zip(speeds, ends, strict=True):
+        block = as_sweep(at_speeds(scene(rounds=1), coarse_rom, [speed]))
+        named = block.assign(status=("speed_over_f1", [status]))
+        save(named, tmp_path / f"{status}.nc")
+    save(merge([load(tmp_path / f"{status}.nc") for status in ends]), tmp_path / "whole.nc")
+    assert load(tmp_path / "whole.nc").status.values.tolist() == [*ends]
+
+
 def test_blocks_merge_into_the_sweep(coarse_rom, tmp_path):
     """With what twins tell of each run."""
     speeds = {"over_f1": {"first": 0.3, "last": 0.38, "count": 3}}
