@@ -116,8 +116,8 @@ def march(scene: Scene, rom: Rom, Omega: float) -> Outcome:
     """
     check_scene(scene, rom)
     warn_of(doubts(scene, rom).values())
-    run = over_speeds.march_one(over_speeds.set_up(scene, rom, Omega))
-    return checked([run], scene.checked_share)[0][0].outcome
+    alone = [over_speeds.march_one(over_speeds.set_up(scene, rom, Omega))]
+    return checked(alone, scene.checked_share)[0][0].outcome
 
 
 def peaks(runs: Runs) -> dict[int, peak.Peak]:

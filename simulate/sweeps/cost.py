@@ -62,8 +62,9 @@ class Cost:
                 f"{WARNING}that is some {duration(self.seconds)}: lower the number of speeds "
                 "(`peaks` adds those that matter), rounds, or integrator.steps_per_round"
             )
-        machine = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
-        if self.memory > MUCH * (memory or machine):
+        if self.memory > MUCH * (
+            memory or os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+        ):
             said.append(
                 f"{WARNING}that is more than {MUCH:.0%} of this machine's memory: lower the number "
                 "of speeds, liner.rods_per_round, record.samples_per_round or the "

@@ -7,8 +7,10 @@ from rom.model import Rom
 from simulate.errors import accuracy
 from simulate.errors.accuracy import Choice
 from simulate.scene import Scene
-from simulate.sweeps.dataset import Sweep, save
+from simulate.sweeps.dataset import Sweep, merge, save
 from simulate.sweeps.over_speeds import as_sweep, at_speeds, check_sweep, tell_before
+
+GROUPS = 4  # of speeds, each with its own checks: the same ones in 1, 2 or 4 blocks
 
 
 def check(scene: Scene, rom: Rom, now: Say) -> None:
@@ -35,4 +37,6 @@ def block(
 ) -> None:
     """Run one of the ``blocks`` of the speeds of a scene."""
     speeds = scene.speeds.omega(rom.f1)[int(names["block"]) :: blocks]  # all blocks cost the same
-    save(as_sweep(at_speeds(scene, rom, speeds, tell, settings, start), tell, settings), runs)
+    marched, apart = at_speeds(scene, rom, speeds, tell, settings, start), max(GROUPS // blocks, 1)
+    groups = (marched[first::apart] for first in range(min(apart, len(marched))))
+    save(merge([as_sweep(group, tell, settings) for group in groups]), runs)
