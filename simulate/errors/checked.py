@@ -52,5 +52,8 @@ def _in_turn(runs: Sequence[Run]) -> list[int]:
 
 def _response(run: Run) -> float:
     """Largest amplitude of a run, without a spectrum its largest displacement, m."""
-    recorded = run.scene.record.spectrum_rounds
-    return last_spectrum(run)[1:].max() if recorded else run.outcome.each.largest[0]
+    return (
+        last_spectrum(run)[1:].max()
+        if run.scene.record.spectrum_rounds
+        else run.outcome.each.largest[0]
+    )

@@ -38,5 +38,12 @@ def block(
     """Run one of the ``blocks`` of the speeds of a scene."""
     speeds = scene.speeds.omega(rom.f1)[int(names["block"]) :: blocks]  # all blocks cost the same
     marched, apart = at_speeds(scene, rom, speeds, tell, settings, start), max(GROUPS // blocks, 1)
-    groups = (marched[first::apart] for first in range(min(apart, len(marched))))
-    save(merge([as_sweep(group, tell, settings) for group in groups]), runs)
+    save(
+        merge(
+            [
+                as_sweep(marched[first::apart], tell, settings)
+                for first in range(min(apart, len(marched)))
+            ]
+        ),
+        runs,
+    )
