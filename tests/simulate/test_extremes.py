@@ -14,6 +14,8 @@ import pytest
 from geometry.blade import EnrichedBasis
 from geometry.hats import middles
 from rom.reduce import reduce
+from simulate.errors.neighbours import HALF, QUARTER, TWICE
+from simulate.errors.resolution import RISKY
 from tests.simulate.stability.cases import BEFORE, FIRST_STRIP_DEG, draw, draw_changing, now
 from tests.simulate.stability.matrix import End, Verdict, counts, judge_case
 from workflow.study.stability import extremes, sweeps
@@ -87,10 +89,19 @@ def test_few_runs_are_wrong_or_stopped(ends, changing):
     counted, plain = counts(ends), counts([*ends, *changing])["plain"]
     assert counted["plain"]["kinds"]["wrong"] <= 4, counted["plain"]["wrong_by"]
     assert counted["default"]["kinds"]["wrong"] <= 1, counted["default"]["wrong_by"]
-    assert 0 < counted["cost"] < 1 and 0 < counted["checks"] < CASES
     checked = counted["checked"]
     assert sum(checked["stopped"].values()) <= 0.05 * checked["accurate"], checked["stopped"]
     assert plain["well_stopped"] <= 0.15 * plain["well_accurate"], plain["stopped"]
+
+
+@slow
+def test_checks_by_default_are_of_risky_runs_and_cost_no_more_than_all_second_runs(ends):
+    """Twice, half and a quarter of the step and a twin; of right ones most often twice alone."""
+    found = [end for end in ends if end.cost]
+    assert 0 < len(found) < CASES / 2 and all(end.risk > RISKY for end in found)
+    assert max(end.cost for end in found) == pytest.approx(TWICE + 1 + HALF.cost + QUARTER.cost)
+    right = [end.cost for end in found if end.default.kind == "right"]
+    assert np.median(right) <= TWICE
 
 
 @slow
