@@ -23,7 +23,7 @@ def basis_speeds(basis: EnrichedBasis | PaperBasis, Omega_m: float) -> NDArray[n
 
 
 def places_between(x: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Between each two of the ``x`` (n,), ascending in [0, 1], where |node_polynomial| is largest.
+    """Between each two of the ``x`` (n,), ascending in [0, 1], where ``|node_polynomial|`` peaks.
 
     There a polynomial through them errs most.
     """

@@ -102,7 +102,7 @@ def machine(tmp_path):
 def test_usage(machine):
     result = machine.run()
     assert result.returncode == 2
-    assert len(result.stderr.splitlines()) == 9
+    assert len(result.stderr.splitlines()) == 10
     assert machine.run("--help").stdout == result.stderr
     assert machine.times_made() == 0
 

@@ -31,8 +31,8 @@ FOLDERS = ("geometry", "fem", "rom", "simulate", "workflow", "profiles", "tests"
 PAGES = (
     "README.md",
     *(f"{folder}/README.md" for folder in FOLDERS),
-    *("workflow/how-do-i.md", "fem/matrices.md", "fem/dolfinx.md"),
-    *("tests/OTHERS.md", "tests/VERIFICATION.md"),
+    *("workflow/how-do-i.md", "workflow/paper.md", "fem/matrices.md", "fem/dolfinx.md"),
+    *("tests/OTHERS.md", "tests/VERIFICATION.md", "CONTRIBUTING.md"),
 )
 
 OVER_F1 = ("Ω_c / f₁(0)", "Ω_c / crossing")

@@ -73,7 +73,7 @@ class Rounds:
 
     @property
     def largest(self) -> tuple[float, float]:
-        """Largest |u_r|, m, and the number of its revolution, from 1; nan without a whole one."""
+        """Largest ``|u_r|``, m, and the number of its revolution, from 1; nan if none is whole."""
         of_rounds = abs(self.extremes).max(axis=1)
         if np.isnan(of_rounds).all():
             return nan, nan

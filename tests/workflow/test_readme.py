@@ -212,7 +212,7 @@ def example(page, words, tmp_path):
 
 def test_the_law_that_the_page_adds_is_one(tmp_path):
     """The plastic one without hardening, to round-off."""
-    law = example("workflow/README.md", "class Perfect", tmp_path).Perfect
+    law = example("CONTRIBUTING.md", "class Perfect", tmp_path).Perfect
     numbers = {"E": 2, "sigma_Y": 1e-3, "unit_Pa": 1e9}
     own, known = law(kind="perfect", **numbers), Plastic(kind="plastic", K=0, **numbers)
     assert own.modulus == known.modulus
@@ -224,14 +224,14 @@ def test_the_law_that_the_page_adds_is_one(tmp_path):
 
 
 def test_the_observable_that_the_page_adds_is_a_number(tmp_path):
-    rms = example("workflow/README.md", "def rms", tmp_path).rms
+    rms = example("CONTRIBUTING.md", "def rms", tmp_path).rms
     assert rms(1 + np.sin(np.linspace(0, 2 * np.pi, 1000, endpoint=False))) == pytest.approx(
         0.5**0.5
     )
 
 
 def test_the_figure_that_the_page_adds_is_drawn(tmp_path):
-    figure = example("workflow/README.md", "def draw", tmp_path)
+    figure = example("CONTRIBUTING.md", "def draw", tmp_path)
     save_runs(tmp_path / "sweep.nc", [0.3, 0.35], wear=[[1.0, 3.0], [0.0, 0.0]])
     files = SimpleNamespace(sweep=tmp_path / "sweep.nc", rom=None)
     (axes,) = figure.draw(*read(figure, files)).axes
@@ -245,6 +245,6 @@ def test_the_figure_that_the_page_adds_is_drawn(tmp_path):
 )
 def test_the_claim_and_the_study_that_the_page_shows_are_those_of_the_code(words, file, count):
     code = re.sub(r"\s", "", (ROOT / file).read_text())
-    shown = [block for block in blocks("workflow/README.md", "(?:python|text)") if words in block]
+    shown = [block for block in blocks("CONTRIBUTING.md", "(?:python|text)") if words in block]
     assert len(shown) == count
     assert [block for block in shown if re.sub(r"\s", "", block) not in code] == []
