@@ -79,9 +79,9 @@ def _basis(
 def growth_of(fom: Matrices) -> NDArray[np.float64]:
     """Coefficients (powers, n), m, of the growth on the patches, or at the points, of ``fom``.
 
-    The radius of each node, ``|x + u|`` less ``|x|`` across the engine axis, is projected like a radial
-    displacement: an untwist that moves a node sideways by t counts with t^2 / (2 r). (0, n) where
-    the static deflections are not known.
+    The radius of each node, ``|x + u|`` less ``|x|`` across the engine axis, is projected like a
+    radial displacement: an untwist that moves a node sideways by t counts with t^2 / (2 r). (0, n)
+    where the static deflections are not known.
     """
     if np.isnan(fom.u_static).any():
         return np.empty((0, len(fom.xi)))

@@ -7,8 +7,7 @@ import re
 
 from sphinx.application import Sphinx
 
-from geometry.project import ROOT
-from geometry.project import version as version_of_project
+from geometry.project import ROOT, version as version_of_project
 from workflow.readme import PAGES
 
 project = "Tiprub"
