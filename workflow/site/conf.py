@@ -5,6 +5,7 @@
 
 import re
 
+from pydantic import BaseModel
 from sphinx.application import Sphinx
 
 from geometry.project import ROOT, version as version_of_project
@@ -44,6 +45,7 @@ MODULE = """
 ```{{eval-rst}}
 .. automodule:: {0}
    :members:
+   :exclude-members: model_config
 ```
 """
 
@@ -64,7 +66,13 @@ def keep_lines(app: Sphinx, kind: str, name: str, of, options, lines: list[str])
     lines[:] = re.sub(r"(?m)^(\S.*\n)\n(?= {4}\S)", r"\1\n::\n\n", "\n".join(lines)).split("\n")
 
 
+def hide_keys(app: Sphinx, kind: str, name: str, of: type, *_: object) -> tuple[str, str] | None:
+    """Leave out the signature of settings: their keys are on the pages, with meaning and range."""
+    return ("", "") if kind == "class" and issubclass(of, BaseModel) else None
+
+
 def setup(app: Sphinx) -> None:
     """Of an extension of Sphinx."""
     app.connect("source-read", add_to_page)
+    app.connect("autodoc-process-signature", hide_keys)
     app.connect("autodoc-process-docstring", keep_lines, priority=400)  # before napoleon
