@@ -254,7 +254,10 @@ class PaperBasis(Settings):
     )
 
 
-Basis = one_of("basis", "kind", EnrichedBasis, PaperBasis, default="enriched")
+Basis = Annotated[
+    EnrichedBasis | PaperBasis,
+    one_of("basis", "kind", EnrichedBasis, PaperBasis, default="enriched"),
+]
 
 
 def settings_of_basis(basis: EnrichedBasis | PaperBasis) -> dict[str, Any]:

@@ -169,7 +169,7 @@ class GivenMatrices(SettingsFile):
         return self.settings_of_matrices() | {"basis": settings_of_basis(self.basis)}
 
 
-type Check = tuple[bool, str]  # whether it holds, and the fault where it does not
+type Check = tuple[bool | np.bool, str]  # whether it holds, and the fault where it does not
 type AnyBlade = Blade | GivenModel | GivenMatrices
 GIVEN = (GivenModel, GivenMatrices)
 

@@ -15,7 +15,7 @@ OFF_TIP = 1e-4  # m, largest distance of a listed point from the tip
 OUTSIDE = 0.02  # of a facet, largest distance of a point beyond the polygonal outline
 
 
-def tip_of(facets: NDArray[np.int64], points: NDArray[np.float64]) -> Tip:
+def tip_of(facets: NDArray, points: NDArray[np.float64]) -> Tip:
     """Chord and outline of the tip's ``facets`` (k, 6) between ``points`` (n, 3), m.
 
     Raises
@@ -64,8 +64,8 @@ def places_of(interface: Interface, tip: Tip) -> NDArray[np.float64]:
 
 
 def on_facets(
-    points: NDArray[np.float64], facets: NDArray[np.int64], tip: Tip, places: NDArray[np.float64]
-) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]]:
+    points: NDArray[np.float64], facets: NDArray, tip: Tip, places: NDArray[np.float64]
+) -> tuple[NDArray, NDArray[np.float64], NDArray[np.float64]]:
     """Put ``places`` (n, 3), m, on the tip's ``facets`` (k, 6) between ``points``, m.
 
     A place is located in the developed tip, and projected on the tip along the radius. Returned are

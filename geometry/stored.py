@@ -5,10 +5,10 @@ Each field states its dimensions and unit.
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import MISSING, Field, field, fields
+from dataclasses import MISSING, Field, dataclass, field, fields
 from io import BytesIO
 from pathlib import Path
-from typing import Any, ClassVar, Self
+from typing import Any, ClassVar, Self, dataclass_transform
 
 import numpy as np
 import xarray as xr
@@ -45,6 +45,12 @@ def stored(
         "may_be_nan": may_be_nan,
     }
     return field(default_factory=default_factory, metadata=metadata)
+
+
+@dataclass_transform(frozen_default=True, field_specifiers=(stored,))
+def frozen[Class: type](of: Class) -> Class:
+    """Decorator of a frozen dataclass of ``stored`` fields."""
+    return dataclass(frozen=True)(of)
 
 
 class Stored:

@@ -37,7 +37,14 @@ from geometry.project.provenance import (
     require_format,
     version,
 )
-from geometry.project.settings import Settings, SettingsFile, check_settings, checked, one_of
+from geometry.project.settings import (
+    Settings,
+    SettingsFile,
+    check_settings,
+    checked,
+    known,
+    one_of,
+)
 from geometry.project.sources import sources_of
 from geometry.project.strict_yaml import MOST_CHARACTERS, MOST_VALUES, parse
 from geometry.project.text_file import csv_rows, csv_text, number, numbers, read_text, require_file

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterator, Sequence
 from difflib import get_close_matches
 from pathlib import Path
-from typing import Annotated, Any, ClassVar, Literal, Self, Union, get_args
+from typing import Any, ClassVar, Literal, Self, get_args
 
 from pydantic import (
     BaseModel,
@@ -124,14 +124,29 @@ class SettingsFile(Settings):
         return values
 
 
+def known[T](value: T | None, key: str) -> T:
+    """``value`` of an optional key, where a check or an earlier stage has seen that there is one.
+
+    Raises
+    ------
+    SettingsError
+        When there is none.
+    """
+    if value is None:
+        raise SettingsError("is not given, nor chosen yet", key=key)
+    return value
+
+
 def _holds_boolean(value: Any) -> bool:
     return isinstance(value, bool) or (
         isinstance(value, list | tuple) and any(_holds_boolean(item) for item in value)
     )
 
 
-def one_of(name: str, key: str, *models: type[Settings], default: str | None = None) -> Any:
-    """Union of models, discriminated by their literal field ``key``.
+def one_of(
+    name: str, key: str, *models: type[Settings], default: str | None = None
+) -> BeforeValidator:
+    """Choose one model of a union by their literal field ``key``.
 
     Faults are reported for the chosen model only. ``name``: key of the user that holds the union;
     ``default``: value of ``key`` where it is not given.
@@ -166,7 +181,7 @@ def one_of(name: str, key: str, *models: type[Settings], default: str | None = N
             )
         return models[tags.index(tag)].model_validate(value | {key: tag})
 
-    return Annotated[Union[models], BeforeValidator(chosen)]  # noqa: UP007
+    return BeforeValidator(chosen)
 
 
 def _required(model: type[Settings], but: str) -> list[str]:

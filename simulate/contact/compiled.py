@@ -45,7 +45,7 @@ class Inner(CPUDispatcher):
 
 def decorator(of: type[CPUDispatcher], **options: Any) -> Callable[[Callable], Callable]:
     """Decorator that compiles with ``options``; NUMBA_DISABLE_JIT=1: plain Python."""
-    if numba.config.DISABLE_JIT:
+    if numba.config.DISABLE_JIT:  # pyright: ignore[reportPrivateImportUsage, reportAttributeAccessIssue]
         return lambda function: function
     return partial(of, targetoptions=OPTIONS | options)
 

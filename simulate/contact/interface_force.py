@@ -88,8 +88,14 @@ class Solver(NamedTuple):
 def new_solver(n: int) -> Solver:
     """Room for the unknowns of ``n`` strips."""
     C, matrix = np.zeros((2, n, n))
-    unknowns, strips, vectors = records(n, UNKNOWN), records(n, AT_STRIP), np.zeros((4, n))
-    return Solver(unknowns, *vectors, strips, C, matrix, np.zeros(1, np.int64))
+    return Solver(
+        records(n, UNKNOWN),
+        *np.zeros((4, n)),
+        strips=records(n, AT_STRIP),
+        C=C,
+        matrix=matrix,
+        unsolved=np.zeros(1, np.int64),
+    )
 
 
 @compiled
@@ -119,7 +125,7 @@ def solve_strip(strips, covered, i, z, c, top, F):
     w -= step
     share = 1 + c * slope
     # where rods are stiff their force loses digits that the way left, z - w, still has
-    force = force - slope * step if share < 2 else (z - w) / c
+    force = force - slope * step if share < 2 else (z - w) / c  # pyright: ignore[reportOperatorIssue]
     return w, max(force, 0.0), slope / share
 
 

@@ -18,7 +18,7 @@ import inspect
 import pickle
 import re
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from copy import copy
 from fcntl import LOCK_EX, flock
@@ -34,7 +34,7 @@ from numba.core.codegen import JITCodeLibrary, JITCPUCodegen
 from numba.core.compiler import CompileResult
 from numba.core.dispatcher import Dispatcher
 from numba.core.serialize import dumps
-from numba.core.types import BaseNamedTuple, BaseTuple, Dispatcher as DispatcherType, Type
+from numba.core.types import BaseTuple, Dispatcher as DispatcherType, Type
 from platformdirs import user_cache_path
 
 from geometry.project import intact, write_whole
@@ -96,7 +96,7 @@ def key(function: Dispatcher, types: tuple[Type, ...]) -> str:
     seen: set[FunctionType] = set()
     text = "\n".join(
         [
-            *map(str, VERSIONS + function.targetctx.codegen().magic_tuple()),
+            *map(str, VERSIONS + function.targetctx.codegen().magic_tuple()),  # pyright: ignore[reportAttributeAccessIssue]
             *(_of_type(of, seen) for of in types),
             _of_value(function, seen),
         ]
@@ -108,9 +108,9 @@ def _of_type(of: Type, seen: set[FunctionType]) -> str:
     """Text of a type, without the addresses in memory in its name."""
     if isinstance(of, DispatcherType):
         return _of_value(of.dispatcher, seen)
-    if isinstance(of, BaseTuple):
-        names = of.fields if isinstance(of, BaseNamedTuple) else ()
-        return f"({', '.join(names)}: {', '.join(_of_type(item, seen) for item in of)})"
+    if isinstance(of, BaseTuple) and isinstance(of, Iterable):
+        items = ", ".join(_of_type(item, seen) for item in of)
+        return f"({', '.join(getattr(of, 'fields', ()))}: {items})"
     return re.sub(" at 0x[0-9a-f]+", "", str(of))
 
 
@@ -133,7 +133,7 @@ def _of_value(value: Any, seen: set[FunctionType]) -> str:
     if isinstance(value, BuiltinFunctionType | np.ufunc):
         return f"{value.__name__} {type(value).__name__}"
     if isinstance(value, type) and issubclass(value, tuple) and hasattr(value, "_fields"):
-        return f"{value.__name__}{value._fields}"
+        return f"{value.__name__}{vars(value)['_fields']}"
     if isinstance(value, PLAIN):
         return repr(value)
     raise UnknownError(repr(value))
@@ -150,7 +150,7 @@ def _of_function(function: FunctionType, seen: set[FunctionType]) -> Iterator[st
         raise UnknownError(f"{function.__qualname__} defines a function")
     yield repr((code.co_code, code.co_consts, code.co_names, code.co_varnames))
     names = inspect.getclosurevars(function)
-    for name, value in sorted((names.globals | names.nonlocals).items()):
+    for name, value in sorted({**names.globals, **names.nonlocals}.items()):
         yield f"{name} = {_of_value(value, seen)}"
     yield _of_value(function.__defaults__, seen)
 
@@ -202,7 +202,7 @@ def linked_into(kernel: Dispatcher) -> Iterator[None]:
     if not all(hasattr(of, name) for of, name in PRIVATE):
         yield
         return
-    codegen = kernel.targetctx.codegen()
+    codegen = kernel.targetctx.codegen()  # pyright: ignore[reportAttributeAccessIssue]  of a CPU
 
     def library(of: JITCPUCodegen, name: str) -> JITCodeLibrary:
         return (JITCodeLibrary if name == kernel.py_func.__qualname__ else _LinkOnly)(of, name)

@@ -61,6 +61,6 @@ def force_weights(ends: NDArray[np.float64]) -> NDArray[np.float64]:
     return share_weights(ends) / (SHARES * np.diff(ends))
 
 
-def by_share(wear: NDArray[np.float64], ends: NDArray[np.float64]) -> NDArray[np.float64]:
+def by_share(wear: NDArray[np.floating], ends: NDArray[np.float64]) -> NDArray[np.float64]:
     """Worn depth (SHARES, nu), m: mean over each eighth of the chord of ``wear`` (m, nu)."""
     return share_weights(ends) @ wear

@@ -11,8 +11,8 @@ from typing import Any, NamedTuple
 import numba
 import numpy as np
 from numba import float64
+from numba.core.types import Type, UniTuple
 from numba.np.unsafe.ndarray import to_fixed_tuple
-from numba.types import Type, UniTuple
 
 from simulate.contact.compiled import compiled
 from simulate.scene.law import Law
@@ -44,7 +44,8 @@ def rod_law(law: type[Law], parameters: Any, by_pointers: bool = False) -> RodLa
     numba.core.errors.NumbaError
         Where they cannot be compiled for calls.
     """
-    if not by_pointers or numba.config.DISABLE_JIT:  # plain Python needs no pointers
+    # plain Python needs no pointers
+    if not by_pointers or numba.config.DISABLE_JIT:  # pyright: ignore[reportPrivateImportUsage, reportAttributeAccessIssue]
         return RodLaw(parameters, _compiled(law.stress), _compiled(law.plastic_work))
     values, of = np.array(parameters, float), type(parameters)
     work = _pointer(law.plastic_work, of, float64)
@@ -56,8 +57,8 @@ def _pointer(function: Callable, of: type, returned: Type) -> Any:
     """Pointer to a ``function`` of parameters in an array; ``of``: their named tuple."""
     formula, count = compiled(function), len(of._fields)
 
-    @numba.cfunc(returned(*OF_ARRAY), error_model="numpy", _nrt=False)
+    @numba.cfunc(returned(*OF_ARRAY), error_model="numpy", _nrt=False)  # pyright: ignore[reportCallIssue]
     def of_array(parameters, one, other):
-        return formula(of(*to_fixed_tuple(parameters, count)), one, other)
+        return formula(of(*to_fixed_tuple(parameters, count)), one, other)  # pyright: ignore[reportCallIssue]
 
     return of_array

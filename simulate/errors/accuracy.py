@@ -155,7 +155,7 @@ def choose(scene: Scene, rom: Rom, doubt: Doubt) -> Choice:
         When the scene does not fit the reduced model, or the error of the model, of its mesh or of
         the most strips allowed leaves too little of the accuracy.
     """
-    require_model(scene.accuracy, doubt)
+    require_model(scene.allowed_error, doubt)
     coarse = coarser(rom)
     speeds = _pilot_speeds(scene, rom)
     now = _first(scene, rom, speeds)
@@ -163,7 +163,7 @@ def choose(scene: Scene, rom: Rom, doubt: Doubt) -> Choice:
     worst = max(runs.values(), key=_error)
     expected = min(worst.largest_error, 1.0)
     for attempt in range(TRIES):
-        if worst.largest_error <= MET * scene.accuracy or now.steps_per_round >= MOST_STEPS:
+        if worst.largest_error <= MET * scene.allowed_error or now.steps_per_round >= MOST_STEPS:
             break
         parts = error_by_part(worst, coarse)
         if attempt > 1:  # else the steps may be too long to tell
@@ -174,10 +174,10 @@ def choose(scene: Scene, rom: Rom, doubt: Doubt) -> Choice:
         converging = _converging(before, runs, now.steps_per_round / old.steps_per_round)
         worst = max(converging or [min(runs.values(), key=_error)], key=_error)
     worst = max(runs.values(), key=_error)
-    if worst.largest_error > MET * scene.accuracy:
+    if worst.largest_error > MET * scene.allowed_error:
         _require_finest(worst, scene, rom, coarse, error_by_part(worst, coarse))
     return Choice(
-        accuracy=scene.accuracy,
+        accuracy=scene.allowed_error,
         **vars(now),
         basis_error=doubt.basis,
         mesh_error=doubt.mesh,
@@ -212,7 +212,9 @@ def _finer(scene: Scene, rom: Rom, now: Fineness, parts: Parts) -> tuple[Finenes
     strips = _strips_for(scene, rom, now.strips, parts)
     of_strips = parts.strips * (now.strips / strips) ** 2
     fixed = of_strips**2 + parts.model**2
-    left = sqrt(max((TARGET * scene.accuracy) ** 2 - fixed, LEAST_REMAINING * scene.accuracy**2))
+    left = sqrt(
+        max((TARGET * scene.allowed_error) ** 2 - fixed, LEAST_REMAINING * scene.allowed_error**2)
+    )
     growth = min(max(sqrt(parts.step / left), 1.0), MOST_GROWTH)
     steps = multiple_of_samples(scene, min(growth * now.steps_per_round, MOST_STEPS))
     if (steps, strips) == (now.steps_per_round, now.strips):  # they are small, or seem so
@@ -238,21 +240,21 @@ def _require_finest(worst: Run, scene: Scene, rom: Rom, coarse: Coarser, parts: 
         return
     finest = _with_rods(scene, rom, min(MOST_GROWTH * now.steps_per_round, MOST_STEPS), most)
     run = march_with_errors(scene, rom, coarse, worst.setup.Omega, finest)
-    missed = run.largest_error > MET * scene.accuracy
+    missed = run.largest_error > MET * scene.allowed_error
     if missed and (why := _refusal(scene, error_by_part(run, coarse), most, most)):
-        raise SceneError(why, key="accuracy", value=scene.accuracy)
+        raise SceneError(why, key="accuracy", value=scene.allowed_error)
 
 
 def _refusal(scene: Scene, parts: Parts, strips: int, most: int) -> str:
     """Why model and ``most`` strips leave too little of the accuracy to the step; empty if not."""
-    if parts.model > MODEL_SHARE * scene.accuracy:
+    if parts.model > MODEL_SHARE * scene.allowed_error:
         return (
             "patches and natural modes of the reduced model cause a relative error of about "
             f"{parts.model:.2g} in the recorded outputs; allowed up to {MODEL_SHARE:g} of the "
             "accuracy: raise interface.patches or basis.natural_modes in the blade's file"
         )
     fixed = hypot(parts.strips * (strips / most) ** 2, parts.model)
-    if fixed <= sqrt(1 - LEAST_REMAINING) * scene.accuracy:
+    if fixed <= sqrt(1 - LEAST_REMAINING) * scene.allowed_error:
         return ""
     needs = f"needs more than {most} strips, whose relative error is {fixed:.2g}"
     if rigid := scene.liner.rigid_key:
@@ -271,13 +273,13 @@ def _most_strips(scene: Scene, rom: Rom) -> int:
 
 def _first_strips(scene: Scene, rom: Rom) -> int:
     """Strips of the first try, at least one for each patch."""
-    least = max(FIRST_STRIPS / sqrt(scene.accuracy), len(rom.xi))
+    least = max(FIRST_STRIPS / sqrt(scene.allowed_error), len(rom.xi))
     return min(STRIPS_BY * ceil(least / STRIPS_BY), _most_strips(scene, rom))
 
 
 def _strips_for(scene: Scene, rom: Rom, drafted: int, parts: Parts) -> int:
     """Number of strips whose error, of second order in their width, is its share."""
-    growth = min(sqrt(parts.strips / (STRIP_SHARE * scene.accuracy)), MOST_GROWTH)
+    growth = min(sqrt(parts.strips / (STRIP_SHARE * scene.allowed_error)), MOST_GROWTH)
     needed = STRIPS_BY * ceil(growth * drafted / STRIPS_BY)
     return max(min(needed, _most_strips(scene, rom)), drafted)
 
@@ -330,8 +332,8 @@ def _first(scene: Scene, rom: Rom, speeds: NDArray[np.float64]) -> Fineness:
     weights = (prepare(case, rom, Omega).strips.w_end for Omega in speeds)
     stiffness = max(float(stiffness_in_a_step(w_end).sum()) for w_end in weights)
     if isfinite(stiffness):  # not of a rigid law
-        steps *= max(sqrt(stiffness / (STIFFNESS * scene.accuracy)), 1.0)
-    least = STEPS / cbrt(scene.accuracy) * _around(scene, rom)
+        steps *= max(sqrt(stiffness / (STIFFNESS * scene.allowed_error)), 1.0)
+    least = STEPS / cbrt(scene.allowed_error) * _around(scene, rom)
     steps = multiple_of_samples(scene, min(max(steps, least), MOST_STEPS))
     return _with_rods(scene, rom, steps, strips)
 

@@ -35,7 +35,7 @@ def change(one: Numbers, *others: Numbers) -> Numbers:
 def _change(a: float | None, b: float | None) -> float:
     if a == b:
         return 0.0
-    return float("inf") if None in (a, b) else abs(a - b) / max(abs(a), abs(b))
+    return float("inf") if a is None or b is None else abs(a - b) / max(abs(a), abs(b))
 
 
 def largest(changes: Numbers) -> float:

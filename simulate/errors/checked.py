@@ -53,7 +53,7 @@ def _in_turn(runs: Sequence[Run]) -> list[int]:
 def _response(run: Run) -> float:
     """Largest amplitude of a run, without a spectrum its largest displacement, m."""
     return (
-        last_spectrum(run)[1:].max()
+        float(last_spectrum(run)[1:].max())
         if run.scene.record.spectrum_rounds
         else run.outcome.each.largest[0]
     )

@@ -53,7 +53,7 @@ def tangential_moment(on_shares: NDArray[np.float64], rom: Rom) -> NDArray[np.fl
 
 
 def worn_volume(
-    wear: NDArray[np.float64], width: NDArray[np.float64], radius: NDArray[np.float64]
+    wear: NDArray[np.floating], width: NDArray[np.float64], radius: NDArray[np.float64]
 ) -> NDArray[np.float64]:
     """Volume (...,), m3, of worn depths ``wear`` (..., m, nu), m.
 
@@ -67,7 +67,7 @@ def worn_volume(
 
 
 def mean_opening(
-    wear: NDArray[np.float64], width: NDArray[np.float64], radius: NDArray[np.float64]
+    wear: NDArray[np.floating], width: NDArray[np.float64], radius: NDArray[np.float64]
 ) -> NDArray[np.float64]:
     """Mean growth (...,), m, of the clearance: worn volume over the area that the tip sweeps.
 

@@ -60,9 +60,10 @@ def shifted(setup: Setup) -> Setup:
 
 def one_rod_more(scene: Scene, samples: int | None = None) -> Scene:
     """The scene with one rod more around the casing, and so many ``samples`` per revolution."""
-    sampled = {"samples_per_round": samples or scene.record.samples_per_round}
-    rods = {"rods_per_round": scene.liner.rods_per_round + 1}
-    changes = {"record": sampled, "liner": rods}
+    changes = {
+        "record": {"samples_per_round": samples or scene.record.samples_per_round},
+        "liner": {"rods_per_round": scene.liner.nu + 1},
+    }
     return scene.model_copy(
         update={key: getattr(scene, key).model_copy(update=of) for key, of in changes.items()}
     )
@@ -104,7 +105,7 @@ def judged(run: Run, met: bool = True, check: bool = False) -> Run:
 
     found, bound = _found(run, beside, check)
     apart, outcome = max(found.departures.values(), default=0.0), found.outcome
-    lost = status.LOST if found.errors else LOST[run.scene.integrator.scheme]
+    lost = status.LOST if found.errors else LOST[run.scene.stepping.scheme]
     word = status.judge(outcome.facts, apart, bound, met, lost)
     reason = outcome.reason if word == outcome.status else ""
     return replace(
@@ -141,7 +142,7 @@ def from_twice(run: Run, beside: Callable[[Neighbour], Run]) -> tuple[dict[str, 
     scene, steps, samples = run.scene, run.setup.steps, run.scene.record.samples_per_round
     samples //= 1 + steps // samples % 2
     if (
-        (scene.integrator.scheme == "central-difference" and 2 * run.setup.h > run.setup.limit)
+        (scene.stepping.scheme == "central-difference" and 2 * run.setup.h > run.setup.limit)
         or scene.contact.friction is not None
         or steps % (2 * samples)
     ):
@@ -177,5 +178,5 @@ def _against(run: Run, other: Run, safety: float) -> tuple[dict[str, float], flo
 def _other_contact(run: Run, other: Run) -> bool:
     """Whether the steps in contact are not as many times more as all steps are."""
     shares = run.outcome.contact_share, other.outcome.contact_share
-    chatters = run.scene.integrator.scheme == "central-difference"
+    chatters = run.scene.stepping.scheme == "central-difference"
     return not chatters and abs(shares[1] - shares[0]) > CONTACT_CHANGE * max(shares)

@@ -54,9 +54,9 @@ def observables(run: Run, samples: int | None = None, rods: int | None = None) -
 
     found = {
         # of the last revolutions; aliasing is the same where both runs are thinned alike
-        "spectrum": lambda: spectrum(outcome.u_r[thinned][-record.spectrum_rounds * samples :, 0])[
-            1:
-        ],
+        "spectrum": lambda: spectrum(
+            outcome.u_r[thinned][-record.rounds_of_spectrum * samples :, 0]
+        )[1:],
         "wear": lambda: on_rods(
             by_share(outcome.wear, outcome.ends), rods or outcome.wear.shape[1]
         ),
@@ -114,7 +114,7 @@ def error(value: ArrayLike, reference: ArrayLike) -> float:
 
 def last_spectrum(run: Run) -> NDArray[np.float32]:
     """Amplitudes of u_r at xi = 1/16 over the revolutions recorded, m, as files hold them."""
-    samples = run.scene.record.spectrum_rounds * run.scene.record.samples_per_round
+    samples = run.scene.record.rounds_of_spectrum * run.scene.record.samples_per_round
     return spectrum(run.outcome.u_r[-samples:, 0]).astype(np.float32)
 
 

@@ -81,7 +81,7 @@ def risk(run: Run) -> float:
 
     Inf for a run that is stopped, which may be right; 0 without contact.
     """
-    ledger, limit = run.outcome.ledger, LOST[run.scene.integrator.scheme]
+    ledger, limit = run.outcome.ledger, LOST[run.scene.stepping.scheme]
     if run.outcome.status == "inaccurate":
         return np.inf
     if run.outcome.contact_share == 0:

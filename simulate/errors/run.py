@@ -18,7 +18,7 @@ def as_long(scene: Scene, rounds: float) -> Scene:
     """
     if scene.until is None:
         return scene
-    return scene.but(until=None, rounds=max(ceil(rounds), scene.record.spectrum_rounds or 1))
+    return scene.but(until=None, rounds=max(ceil(rounds), scene.record.rounds_of_spectrum))
 
 
 @dataclass(frozen=True)

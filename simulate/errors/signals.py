@@ -36,8 +36,8 @@ def spectrum(u_r: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def amplitude(
-    spectra: NDArray[np.float64], rounds: int, k: int | None = None
-) -> NDArray[np.float64]:
+    spectra: NDArray[np.floating], rounds: int, k: int | None = None
+) -> NDArray[np.floating]:
     """||Y|| (...): largest amplitude of ``spectra`` (..., bins) over ``rounds``, without the mean.
 
     With ``k``, the largest within 0.25 of that engine order. nan where a run has no spectrum.

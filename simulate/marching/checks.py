@@ -29,7 +29,22 @@ def check_scene(scene: Scene, rom: Rom) -> None:
         One line for each fault.
     """
     require_sweep(scene)
-    if faults := _faults(scene, rom):
+    liner, clearance, directions = scene.liner, scene.clearance, scene.directions
+    speeds = scene.speeds.omega(rom.f1)
+    too_fast = [*_speeds(scene.speeds, rom, scene.blade)]
+    known = speeds[speeds <= rom.Omega_m * (1 + ROUND_OFF)]  # others are a fault of their own
+    outgrown = growth_fault(clearance, rom, strip_places(rom, liner.m).xi, known)
+    gaps_are_known = not (clearance.at_rest and (too_fast or outgrown))
+    faults = [  # in the order of their lines
+        *_model(scene.blade, scene.contact, [*scene.record.grids], directions, rom),
+        *too_fast,
+        *_liner(liner, rom.camber[:, 0]),
+        *_strips(liner, rom),
+        *_gaps(clearance.gaps([0, 1], rom.span)),
+        *outgrown,
+        *(_edge(liner, scene.contact.profile, clearance, rom, speeds) if gaps_are_known else ()),
+    ]
+    if faults:
         raise SceneError(*faults)
 
 
@@ -52,25 +67,6 @@ def require_sweep(scene: Scene) -> None:
         raise SceneError(
             "no settings chosen yet: call simulate.errors.accuracy.choose first", key="accuracy"
         )
-
-
-def _faults(scene: Scene, rom: Rom) -> list[Fault]:
-    """All refusals, in the order of their lines."""
-    liner, clearance, directions = scene.liner, scene.clearance, scene.directions
-    speeds = scene.speeds.omega(rom.f1)
-    too_fast = [*_speeds(scene.speeds, rom, scene.blade)]
-    known = speeds[speeds <= rom.Omega_m * (1 + ROUND_OFF)]  # others are a fault of their own
-    outgrown = growth_fault(clearance, rom, strip_places(rom, liner.m).xi, known)
-    gaps_are_known = not (clearance.at_rest and (too_fast or outgrown))
-    return [
-        *_model(scene.blade, scene.contact, [*scene.record.grids], directions, rom),
-        *too_fast,
-        *_liner(liner, rom.camber[:, 0]),
-        *_strips(liner, rom),
-        *_gaps(clearance.gaps([0, 1], rom.span)),
-        *outgrown,
-        *(_edge(liner, scene.contact.profile, clearance, rom, speeds) if gaps_are_known else ()),
-    ]
 
 
 def _model(
@@ -130,8 +126,8 @@ def _remedy_of_speed(speeds: Speeds, rom: Rom, blade: str, highest: float) -> st
 
 def _liner(liner: Liner, radius: NDArray[np.float64]) -> Iterator[Fault]:
     """A law from outside this project, and rods and footprint that do not go with the radius."""
-    law, footprint, nu = liner.law, liner.footprint_m, liner.rods_per_round
-    if not isinstance(law, LAWS) and (message := fault(law)):
+    law, footprint, nu = liner.law, liner.footprint_m, liner.nu
+    if not isinstance(law, LAWS) and (message := fault(law)):  # pyright: ignore[reportArgumentType]
         yield Fault(
             f"{type(law).__name__}: {message}; see simulate/README.md, From Python", "liner.law"
         )
@@ -199,17 +195,21 @@ def _gaps(gaps: NDArray[np.float64]) -> Iterator[Fault]:
 
 
 def _edge(
-    liner: Liner, profile: Profile, clearance: Clearance, rom: Rom, speeds: NDArray[np.float64]
+    liner: Liner,
+    profile: Profile | None,
+    clearance: Clearance,
+    rom: Rom,
+    speeds: NDArray[np.float64],
 ) -> Iterator[Fault]:
     """Rods that are too wide for the slope of the tip at its rubbing edge."""
     gap = least_gap(clearance, rom, liner.m, speeds)
     fall = 2 * np.pi * rom.camber[:, 0].max() * edge_slope(profile, liner.footprint_m)
     least = fall / gap if gap > 0 else 0.0
-    if liner.rods_per_round < least:
+    if liner.nu < least:
         yield Fault(
             f"at its rubbing edge the tip falls by more than the gap over one rod; allowed from "
             f"{np.ceil(least):.0f}",
             "liner.rods_per_round",
-            liner.rods_per_round,
+            liner.nu,
             {"ge": int(np.ceil(least))},
         )

@@ -78,12 +78,12 @@ def at_rest(scheme: Scheme) -> Motion:
     """A blade that stands still, unloaded."""
     rows, n = scheme.Phi.shape
     x, y, u = (_zeros((TURNS, size)) for size in (n, n, rows))
-    return Motion(x, y, u, *(np.zeros(rows) for _ in range(2)), _zeros((n,)), np.zeros(rows))
+    return Motion(x, y, u, np.zeros(rows), np.zeros(rows), _zeros((n,)), np.zeros(rows))
 
 
-def rows_of(Phi_b: NDArray[np.float64], Phi_t: NDArray[np.float64] | None) -> NDArray[np.float64]:
+def rows_of(Phi_b: NDArray[np.float64], Phi_t: NDArray[np.float64]) -> NDArray[np.float64]:
     """Interface rows of the modes: radial, padded to LANES, then tangential where modelled."""
-    return Phi_b if Phi_t is None else np.vstack([padded(Phi_b), Phi_t])
+    return np.vstack([padded(Phi_b), Phi_t]) if len(Phi_t) else Phi_b
 
 
 def padded(rows: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -50,14 +50,14 @@ class Outcome:
     casing_work: NDArray[np.float64]  # (revolutions computed,), J, of the casing on the rods
     contact_share: float  # steps with contact over all steps
     each: Rounds  # numbers of every revolution
+    # (times, 2 gauges): strain along gauges, 1, then stress, Pa, of the vibration, at every other
+    # sample of the revolutions of the spectrum, else of the last; nan in those not computed
+    gauges: NDArray[np.float64]
     time_constant: float = nan  # revolutions, of the mode that responds in the last one; inf
     # without damping, nan where the run ended early
     trend: str = TOO_SHORT  # whether the motion is steady
     left: Left | None = None  # start of the next run, where it is asked for
     reason: str = ""  # of a run without contact: why the tip did not touch
-    # (times, 2 gauges): strain along gauges, 1, then stress, Pa, of the vibration, at every other
-    # sample of the revolutions of the spectrum, else of the last; nan in those not computed
-    gauges: NDArray[np.float64] | None = None
 
     @property
     def ledger(self) -> Ledger:
@@ -87,7 +87,7 @@ def _start(
     strips, zeta = setup.strips, scene.damping_ratio
     rounds, until = scene.rounds, scene.until
     rows = rows_of(setup.Phi_b, setup.Phi_t)
-    scheme = SCHEMES[scene.integrator.scheme].coefficients(setup.omega, rows, zeta, setup.h)
+    scheme = SCHEMES[scene.stepping.scheme].coefficients(setup.omega, rows, zeta, setup.h)
     if (mu := scene.contact.friction) is not None:
         scheme = sliding(scheme, mu, strip_stiffness(scene.liner, setup.places))
     state = at_start(scheme, strips)
@@ -98,7 +98,7 @@ def _start(
     def arguments(done: int, before: int = 0) -> tuple[Any, ...]:
         """Of the kernel in revolution ``done``, from 0, after ``before`` of another run."""
         rows = [array[_row(done, len(array) - 1, rounds, until)] for array in kept]
-        recorded = Recorded(*rows, Phi_out, weights)
+        recorded = Recorded(*rows, Phi=Phi_out, weights=weights)
         return scheme, strips, state, recorded, ramp, setup.bound, before + done, setup.steps
 
     with compiling(scene.liner.law):
@@ -123,12 +123,12 @@ def march(scene: Scene, setup: Setup, left: Left | Worn | None = None) -> Outcom
     scheme, strips, state, *_ = arguments(0)
     first, steps, zeta = left.rounds if left else 0, setup.steps, scene.damping_ratio
     if left:
-        begin(state, left, scheme, SCHEMES[scene.integrator.scheme], setup, zeta)
+        begin(state, left, scheme, SCHEMES[scene.stepping.scheme], setup, zeta)
     before = _stored(scene, setup, state, first * steps)
     contacts, done, end, worked = 0, 0, RUNNING, [0.0]
     each, tau, words = Rounds.unknown(scene.rounds, _worn(setup, state)), nan, [TOO_SHORT]
     standing = max(scene.casing.changes_until - first, 0)  # first revolution that counts, from 0
-    least = scene.record.spectrum_rounds or 1
+    least = scene.record.rounds_of_spectrum
     judged = looks(standing, least, scene.rounds) if scene.until else {scene.rounds}
     still = [STEADY] * 2 if scene.until else None  # at two looks in turn
     every = 2 - scene.record.samples_per_round % 2  # twice as many readings cost a run 2 % more
@@ -182,13 +182,13 @@ def march(scene: Scene, setup: Setup, left: Left | Worn | None = None) -> Outcom
         casing_work=np.diff(worked),
         contact_share=contacts / marched,
         each=each,
+        gauges=np.concatenate(gauges),
         time_constant=tau,
         trend=words[-1],
         left=left_by(state, setup, first + done) if wanted and end == RUNNING else None,
         reason=why_no_contact(scene, strips, state.eps_p, first + done)
         if status == "no-contact"
         else "",
-        gauges=np.concatenate(gauges),
     )
 
 
@@ -216,7 +216,7 @@ def _worn(setup: Setup, state: State) -> float:
 
 def _stored(scene: Scene, setup: Setup, state: State, steps: int) -> tuple[float, float]:
     """Energies, J, of the blade and of the rods under its tip, after so many ``steps``."""
-    strips, energy = setup.strips, SCHEMES[scene.integrator.scheme].energy
+    strips, energy = setup.strips, SCHEMES[scene.stepping.scheme].energy
     blade = energy(setup.omega, scene.damping_ratio, setup.h, state.motion, steps % TURNS)
     return blade, float(state.covered.strips.stored @ strips.area * strips.thickness)
 

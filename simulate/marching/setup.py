@@ -4,13 +4,12 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from math import ceil, radians
-from typing import Any
 
 import numpy as np
 from numba.core import errors
 from numpy.typing import NDArray
 
-from geometry.project import UserError
+from geometry.project import UserError, known
 from rom.model import Rom
 from rom.polynomial import evaluate
 from simulate.contact.gaps import gaps_at, growth_fault
@@ -24,6 +23,7 @@ from simulate.marching.modal import padded, rows_of
 from simulate.marching.piecewise_exact import gain, share_of_end
 from simulate.marching.stability import step_limit
 from simulate.scene import LEADING, Casing, Clearance, Contact, Liner, Profile, Scene
+from simulate.scene.integrator import Integrator
 from simulate.scene.law import Law
 from simulate.scene.laws import LAWS
 
@@ -48,7 +48,7 @@ class Setup:
     omega: NDArray[np.float64]  # (n,), rad/s, natural frequencies, with scaled masses
     Phi: NDArray[np.float64]  # (n, n), their modes
     Phi_b: NDArray[np.float64]  # (m, n), their radial displacements over the strips, P Phi
-    Phi_t: NDArray[np.float64] | None  # (m, n), the tangential ones; None for radial contact
+    Phi_t: NDArray[np.float64]  # (m, n), the tangential ones; (0, n) for radial contact
     Phi_out: NDArray[np.float64]  # (places, n), the radial ones at the outputs, xi = 1/16 first
     Phi_gauges: NDArray[np.float64]  # (2 gauges, n): strain along gauges, 1, then stress, Pa
     places: Places
@@ -74,12 +74,12 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
         are scaled at too low a frequency, a gap at rest is less than the growth of the tip, or a
         rigid casing would overlap the blade at the start.
     """
-    integrator, contact, zeta = scene.integrator, scene.contact, scene.damping_ratio
+    integrator, contact, zeta = scene.stepping, scene.contact, scene.damping_ratio
     omega, Phi = _marched_modes(integrator.mass_scaling_hz, *rom.modes(Omega))
     places = strip_places(rom, scene.liner.m)
     Phi_b = rom.rows(places.xi) @ Phi
-    Phi_t = rom.rows(places.xi, "t") @ Phi if contact.along else None
-    rows = rows_of(Phi_b, Phi_t if contact.tangential else None)  # with friction as without
+    Phi_t = rom.rows(places.xi, "t") @ Phi if contact.along else Phi[:0]
+    rows = rows_of(Phi_b, Phi_t if contact.tangential else Phi[:0])  # with friction as without
     limit = _limit(scene.liner, contact, zeta, omega, rows, places)
     steps = steps or _steps_per_round(integrator, scene.record.samples_per_round, Omega, limit)
     h = 2 * np.pi / Omega / steps
@@ -111,7 +111,7 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
 
 
 def _pushed(
-    mu: float | None, Phi_b: NDArray[np.float64], Phi_t: NDArray[np.float64] | None
+    mu: float | None, Phi_b: NDArray[np.float64], Phi_t: NDArray[np.float64]
 ) -> NDArray[np.float64]:
     """Radial displacements (m, n) over the strips times those along the force on each.
 
@@ -157,7 +157,7 @@ def _limit(
     if np.isinf(stiffness).any():
         return 0.0
     if contact.tangential:  # along the normal (1, p'), steepest at the ends of the profile
-        profile = contact.profile
+        profile = known(contact.profile, "contact.profile")
         steepest = abs(profile.tilt) + 4 * profile.edge_drop_m / liner.footprint_m
         stiffness = np.concatenate([padded(stiffness), stiffness]) * (1 + steepest**2)
     return step_limit(omega, rows, zeta, stiffness)
@@ -190,7 +190,7 @@ def strip_stiffness(liner: Liner, places: Places) -> NDArray[np.float64]:
     return liner.law.modulus * places.width * liner.footprint_m / liner.thickness_m
 
 
-def _steps_per_round(integrator: Any, samples: int, Omega: float, limit: float) -> int:
+def _steps_per_round(integrator: Integrator, samples: int, Omega: float, limit: float) -> int:
     """Steps per revolution of a scene's ``integrator``, a multiple of ``samples``.
 
     Raises
@@ -198,10 +198,9 @@ def _steps_per_round(integrator: Any, samples: int, Omega: float, limit: float) 
     SceneError
         When the step is above the limit, or the steps are too many.
     """
-    given = integrator.steps_per_round
     if integrator.scheme == "piecewise-exact":
-        return given
-    round_time = 2 * np.pi / Omega
+        return integrator.steps_per_round
+    given, round_time = integrator.steps_per_round, 2 * np.pi / Omega
     least = _multiple(round_time / limit, samples)
     if given is not None and given < least:
         raise SceneError(
@@ -212,7 +211,9 @@ def _steps_per_round(integrator: Any, samples: int, Omega: float, limit: float) 
             value=given,
             allowed={"ge": least},
         )
-    steps = given or _multiple(round_time / (integrator.fraction_of_limit * limit), samples)
+    steps = given or _multiple(
+        round_time / (known(integrator.fraction_of_limit, "fraction_of_limit") * limit), samples
+    )
     if steps > MAX_STEPS:
         raise SceneError(
             f"{steps:.3g} steps per revolution at {Omega:.6g} rad/s; allowed up to "
@@ -247,7 +248,7 @@ def strips_under(
                          passed                                passed
                         in a step                             in a step
     """
-    liner, casing, nu = scene.liner, scene.casing, scene.liner.rods_per_round
+    liner, casing, nu = scene.liner, scene.casing, scene.liner.nu
     gap, theta = float(scene.clearance.gaps(LEADING, rom.span)), 2 * np.pi * np.arange(nu) / nu
     d, h = casing.inward(theta, gap), 2 * np.pi / Omega / steps
     fixed = casing.fixed(theta, gap) if casing.travelling else d
@@ -260,7 +261,7 @@ def strips_under(
     length = float(max(rods_in_footprint(liner.footprint_m, radius, nu), np.ceil(passed), 1))
     m = int(np.ceil(length))
     beside = min(max(ceil((passed - 1) / 2), 0), max(nu - m, 0) // 2)
-    implicit = scene.integrator.scheme == "piecewise-exact"
+    implicit = scene.stepping.scheme == "piecewise-exact"
     placed = 0.5 if implicit else 1.0
     w_end = share_of_end(np.maximum(compliance, 0) * strip_stiffness(liner, places))
     middle = places.theta * nu / (2 * np.pi) - (1 - placed) * nu / steps

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pydantic import Field
 
-from geometry.project import Settings, SettingsError, checked
+from geometry.project import Settings, SettingsError, checked, known
 from simulate.scene.tables import LARGEST_DEPTH, AnyTable, AnyThermal, RampTable
 
 LEADING, TRAILING = 1 / 16, 15 / 16  # chord fractions at which gaps and outputs are given
@@ -20,6 +20,11 @@ MOST_ROUNDS = 100_000
 Factor = Annotated[float, Field(ge=0, le=1e4)]
 Gap = Annotated[float, Field(ge=0, le=0.05)]
 GapOverSpan = Annotated[float, Field(ge=0, le=0.5)]
+
+
+def _length(in_m: float | None, share: float | None, of: float) -> float:
+    """Length, m, given as such, or as a ``share`` of another one, ``of`` (m)."""
+    return known(share, "length") * of if in_m is None else in_m
 
 
 class Clearance(Settings):
@@ -72,11 +77,8 @@ class Clearance(Settings):
 
     def gaps(self, xi: ArrayLike, span: float) -> NDArray[np.float64]:
         """Gaps as given, m, of the shape of the chord fractions ``xi``; ``span``: length, m."""
-        in_m = (self.leading_edge_m, self.trailing_edge_m)
-        of_span = (self.leading_edge_over_span, self.trailing_edge_over_span)
-        first, last = (
-            m if m is not None else share * span for m, share in zip(in_m, of_span, strict=True)
-        )
+        first = _length(self.leading_edge_m, self.leading_edge_over_span, span)
+        last = _length(self.trailing_edge_m, self.trailing_edge_over_span, span)
         return first + (last - first) * (np.asarray(xi) - LEADING) / (TRAILING - LEADING)
 
 
@@ -116,7 +118,7 @@ class Harmonic(Settings):
 
     def size(self, gap: float) -> float:
         """Amplitude, m; ``gap`` at xi = 1/16 in m."""
-        return self.amplitude_gaps * gap if self.amplitude_m is None else self.amplitude_m
+        return _length(self.amplitude_m, self.amplitude_gaps, gap)
 
     def turn(self, time: float) -> float:
         """Phase, rad, that passes in ``time``, s."""
@@ -166,7 +168,7 @@ class Casing(Settings):
     def changes_until(self) -> int:
         """Round, from 0, at whose start the share of the distortion has taken its last value."""
         if not self.ramp:
-            return ceil(self.ramp_rounds)
+            return ceil(known(self.ramp_rounds, "ramp_rounds"))
         factors, at = self.ramp.factor, self.ramp.rounds
         changes = (end for end, of in zip(at[1:], factors, strict=False) if of != factors[-1])
         return ceil(max(changes, default=0.0))
@@ -187,7 +189,9 @@ class Casing(Settings):
         """d(theta) (m), inward, at ``theta`` (rad); ``gap`` at xi = 1/16 in m, ``time`` in s."""
         if self.table is not None:
             return self.scale * self.table.inward(theta)
-        return self.scale * sum((h.inward(theta, gap, time) for h in self.harmonics), 0 * theta)
+        return self.scale * sum(
+            (of.inward(theta, gap, time) for of in self.harmonics or ()), 0 * theta
+        )
 
     def fixed(self, theta: NDArray[np.float64], gap: float) -> NDArray[np.float64]:
         """The part of d(theta), m, that does not travel."""

@@ -48,4 +48,7 @@ class PiecewiseExact(Settings):
         return values
 
 
-Integrator = one_of("integrator", "scheme", PiecewiseExact, CentralDifference)
+Integrator = Annotated[
+    PiecewiseExact | CentralDifference,
+    one_of("integrator", "scheme", PiecewiseExact, CentralDifference),
+]

@@ -3,7 +3,7 @@
 from collections import namedtuple
 from functools import cache
 from types import FunctionType
-from typing import Annotated, Any, ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from pydantic import Field
@@ -12,9 +12,6 @@ from geometry.project import Settings
 
 STRAINS = np.geomspace(1e-12, 1.0, 257)  # at which the slope of a law is sampled
 PROBE = 1e-3  # strain at which a liner with any strength bears
-
-Unit = Annotated[float, Field(gt=0, le=1e15, description="Unit of the law's moduli (Pa)")]
-Modulus = Annotated[float, Field(gt=0, le=1e9, description="Young's modulus (in unit_Pa)")]
 
 
 @cache
@@ -83,6 +80,11 @@ class Law(Settings):
                 setattr(cls, name, staticmethod(function))
 
     @property
+    def called(self) -> str:
+        """Its ``kind`` in scene files: ``module:class`` of a law from elsewhere."""
+        return getattr(self, "kind", f"{type(self).__module__}:{type(self).__qualname__}")
+
+    @property
     def parameters(self) -> NamedTuple:
         """Parameters of the law as ``stress`` reads them, SI."""
         values = {name: float(of) for name, of in self if name != "kind"}
@@ -104,6 +106,10 @@ class Law(Settings):
 
 class Unloading(Law):
     """Base of the laws of this project that unload along ``E``; moduli are in ``unit_Pa``."""
+
+    kind: str
+    E: float = Field(gt=0, le=1e9, description="Young's modulus (in unit_Pa)")
+    unit_Pa: float = Field(gt=0, le=1e15, description="Unit of the law's moduli (Pa)")
 
     @property
     def parameters(self) -> NamedTuple:

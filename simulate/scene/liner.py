@@ -4,7 +4,7 @@ from typing import ClassVar, Literal
 
 from pydantic import Field
 
-from geometry.project import Settings, SettingsError, checked
+from geometry.project import Settings, SettingsError, checked, known
 from simulate.scene.laws import AnyLaw
 
 STRIPS = 16  # along the chord, where the scene does not say
@@ -57,11 +57,10 @@ class Liner(Settings):
     @checked
     def _law_in_pascals(self) -> None:
         """Refuse moduli that are of another unit than ``unit_Pa``."""
-        unit = getattr(self.law, "unit_Pa", None)
-        given = {name: getattr(self.law, name, None) for name in RANGES if unit}
-        for name, value in given.items():
-            least, largest = RANGES[name]
-            if value is not None and not least <= value * unit <= largest:
+        unit = getattr(self.law, "unit_Pa", 0.0)
+        for name, (least, largest) in RANGES.items():
+            value = getattr(self.law, name, None)
+            if unit and value is not None and not least <= value * unit <= largest:
                 stiffer = "; a stiffer liner is `kind: rigid`" if name == "E" else ""
                 raise SettingsError(
                     f"is {value * unit:.3g} Pa with unit_Pa: {unit:g}; allowed from {least:g} to "
@@ -78,9 +77,14 @@ class Liner(Settings):
         return self.strips or STRIPS
 
     @property
+    def nu(self) -> int:
+        """Rods per revolution, given or chosen by ``accuracy``."""
+        return known(self.rods_per_round, "liner.rods_per_round")
+
+    @property
     def rigid_key(self) -> str | None:
         """Key that makes the casing rigid for the tip; None where the rods always deform."""
         if not self.law.deforms:
-            return f"law.kind: {self.law.kind}"
+            return f"law.kind: {self.law.called}"
         through = self.law.touches and self.worn_through == "casing"
         return "worn_through: casing" if through else None

@@ -88,6 +88,11 @@ class Record(Settings):
         return rounds if self.history or self.motion else self.spectrum_rounds or 0
 
     @property
+    def rounds_of_spectrum(self) -> int:
+        """Last revolutions of the spectrum; without one the last, of which gauges are read."""
+        return self.spectrum_rounds or 1
+
+    @property
     def rounds_of_states(self) -> int:
         """Last revolutions whose reduced displacements are kept."""
         return self.states_rounds or (1 if self.motion else 0)
@@ -124,7 +129,7 @@ class Record(Settings):
             raise SettingsError(
                 "two have the same name in results, where that of a rosette ends in -0, -45, -90",
                 key="gauges",
-                value=", ".join(of.name for of in self.gauges),
+                value=", ".join(of.name for of in self.gauges or []),
             )
 
 

@@ -8,7 +8,7 @@ from pydantic import Field
 
 from geometry.blade import RPM
 from geometry.given import AnyBlade
-from geometry.project import Fault, Settings, SettingsError, SettingsFile, checked
+from geometry.project import Fault, Settings, SettingsError, SettingsFile, checked, known
 from simulate.scene.casing import MOST_ROUNDS, Casing, Clearance
 from simulate.scene.contact import Contact
 from simulate.scene.integrator import Integrator
@@ -137,6 +137,16 @@ class Scene(SettingsFile):
         return super().but(**changes)
 
     @property
+    def stepping(self) -> Integrator:
+        """Scheme and step, given or chosen by ``accuracy``."""
+        return known(self.integrator, "integrator")
+
+    @property
+    def allowed_error(self) -> float:
+        """Relative error allowed, of a scene whose settings it chooses."""
+        return known(self.accuracy, "accuracy")
+
+    @property
     def no_torque(self) -> str | None:
         """Keys for which the model has no torque (``errors.loads``); None where it has one."""
         if self.contact.profile is not None and not self.contact.tangential:
@@ -197,7 +207,7 @@ class Scene(SettingsFile):
     def _a_sliding_tip_presses_on_rods(self) -> None:
         liner = self.liner
         if self.contact.friction is not None and (liner.rigid_key or not liner.law.touches):
-            key = liner.rigid_key or f"law.kind: {liner.law.kind}"
+            key = liner.rigid_key or f"law.kind: {liner.law.called}"
             raise SettingsError(
                 f"does not go with liner.{key}: it needs rods that deform (against a rigid casing "
                 "there may be several reactions, or none): take one of them out",

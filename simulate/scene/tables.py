@@ -19,6 +19,7 @@ from geometry.project import (
     check_settings,
     checked,
     csv_rows,
+    known,
     numbers,
     shown,
 )
@@ -120,7 +121,7 @@ class Thermal(Points):
     )
 
     def _speeds(self) -> tuple[float, ...]:
-        return self.speed_over_f1 if self.speed_over_f1 is not None else self.speed_rad_s
+        return self.speed_over_f1 or known(self.speed_rad_s, "speed_rad_s")
 
     def range(self, f1: float) -> tuple[float, float]:
         """First and last speed, rad/s; ``f1`` in Hz."""

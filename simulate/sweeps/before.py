@@ -8,7 +8,7 @@ import xarray as xr
 from geometry.project import Fault
 from rom.model import Rom
 from simulate.marching import WITH_RESULT, Left, SceneError, Worn
-from simulate.scene import Scene
+from simulate.scene.scene import Scene, Start
 from simulate.sweeps.dataset import left_of, require_rom
 
 SAME_SPEED = 1e-9  # relative
@@ -32,7 +32,7 @@ def before(scene: Scene, rom: Rom, runs: xr.Dataset | None) -> Before:
         When it is missing, holds no ends or is of a scene that cannot go on as this one, or when
         this one has no `start`; on a call, when it has no run with a result at that speed.
     """
-    if scene.start is None:
+    if (start := scene.start) is None:
         if runs is not None:
             raise SceneError("missing: give the scene to continue from", key="start")
         return lambda Omega: None
@@ -41,7 +41,7 @@ def before(scene: Scene, rom: Rom, runs: xr.Dataset | None) -> Before:
             "its sweep is missing: `python -m simulate` takes it with --start, simulate.sweep "
             "with start=, and ./run snakemake makes it",
             key="start.scene",
-            value=scene.start.scene,
+            value=start.scene,
         )
     require_rom(runs, rom)
     if "end_solver" not in runs:
@@ -49,31 +49,31 @@ def before(scene: Scene, rom: Rom, runs: xr.Dataset | None) -> Before:
             "its sweep holds no ends that this version reads; set `record: {end: true}` there, and "
             "run it again",
             key="start.scene",
-            value=scene.start.scene,
+            value=start.scene,
         )
-    if faults := _differences(scene, Scene.model_validate_json(runs.attrs["scene"])):
+    if faults := _differences(scene, start, Scene.model_validate_json(runs.attrs["scene"])):
         raise SceneError(*faults)
 
     def at(Omega: float) -> Left | Worn:
-        given = scene.start.speed_over_f1
-        run = _run_at(runs, Omega / rom.omega1 if given is None else given, scene.start.scene)
+        given = start.speed_over_f1
+        run = _run_at(runs, Omega / rom.omega1 if given is None else given, start.scene)
         left = left_of(run)
-        return Worn(left.eps_p) if scene.start.liner_only else left
+        return Worn(left.eps_p) if start.liner_only else left
 
     return at
 
 
-def _differences(scene: Scene, before: Scene) -> list[Fault]:
-    """A fault for each key in which ``scene`` cannot go on from ``before``."""
+def _differences(scene: Scene, start: Start, before: Scene) -> list[Fault]:
+    """A fault for each key in which ``scene`` cannot go on from ``before``, by its ``start``."""
     here, there = scene.model_dump(mode="json"), before.model_dump(mode="json")
-    if scene.start.liner_only:
+    if start.liner_only:
         here, there = (
             {"blade": of["blade"]} | {f"liner.{key}": of["liner"][key] for key in OF_LINER}
             for of in (here, there)
         )
     return [
         Fault(
-            f"in {scene.start.scene}, from which it starts, it is {there[key]}; allowed the same",
+            f"in {start.scene}, from which it starts, it is {there[key]}; allowed the same",
             key,
             here[key],
             there[key],

@@ -58,7 +58,9 @@ def close_in(
     ``scene.peaks.within_over_f1``. Limits that the runs exceed are warned of.
     """
     known, added = runs, []
-    while speeds := halfway(scene.peaks, rom.f1, runs["speed"].values, partial(peak_of, runs, rom)):
+    while scene.peaks and (
+        speeds := halfway(scene.peaks, rom.f1, runs["speed"].values, partial(peak_of, runs, rom))
+    ):
         new = at_speeds(scene, rom, speeds, report, choice, start)
         runs, added = merge([runs, as_sweep(new, choice=choice, check=False)]), added + new
     if added:
@@ -69,7 +71,7 @@ def close_in(
 
 
 def halfway(
-    peaks: Peaks | None,
+    peaks: Peaks,
     f1: float,
     Omega: NDArray[np.float64],
     peak_at: Callable[[int], Peak | None],
@@ -83,9 +85,8 @@ def halfway(
     Omega : (speeds,), rad/s, ascending
     peak_at : peak among these speeds along an engine order
     """
-    found = [peak for k in (peaks.orders if peaks else ()) if (peak := peak_at(k))]
     speeds = set()
-    for peak in found:
+    for peak in filter(None, map(peak_at, peaks.orders)):
         near = Omega[max(peak.index - 1, 0) : peak.index + 2]
         far = np.diff(near) > peaks.within_over_f1 * 2 * np.pi * f1 * (1 + 1e-9)
         speeds |= set(((near[:-1] + near[1:]) / 2)[far].tolist())

@@ -80,9 +80,9 @@ def cost(scene: Scene, rom: Rom, speeds: int | None = None) -> Cost:
     """
     Omega = scene.speeds.omega(rom.f1)
     speeds = len(Omega) if speeds is None else speeds
-    steps = scene.integrator.steps_per_round
+    steps = scene.stepping.steps_per_round
     if not steps:  # the limit, which does not depend on the rods: arrays of many take their time
-        few = scene.but(liner__rods_per_round=min(scene.liner.rods_per_round, FEW_RODS))
+        few = scene.but(liner__rods_per_round=min(scene.liner.nu, FEW_RODS))
         steps = min(prepare(few, rom, float(np.median(Omega))).steps, MAX_STEPS)
     beside = [run for key, run in SECOND_RUNS.items() if getattr(scene, key)]
     all_steps = speeds * scene.rounds * steps * (1 + sum(run.cost for run in beside))
@@ -102,7 +102,7 @@ def _of_step(liner: Liner, rom: Rom, steps: float) -> float:
     """Time of a step on one core, s."""
     rods = 0.0
     if liner.law.touches:
-        radius, nu = float(rom.camber[:, 0].mean()), liner.rods_per_round
+        radius, nu = float(rom.camber[:, 0].mean()), liner.nu
         passed = ceil(nu / steps)
         rods = 1 + passed + max(rods_in_footprint(liner.footprint_m, radius, nu), passed)
     return STEP + MODE_STRIP * rom.n * liner.m + ROD_STRIP * liner.m * rods
@@ -110,14 +110,14 @@ def _of_step(liner: Liner, rom: Rom, steps: float) -> float:
 
 def _memory(speeds: int, record: Record, liner: Liner, rounds: int, n: int) -> float:
     """Bytes of the results of all speeds with their casings, and of a run in progress."""
-    samples, rods = record.samples_per_round, liner.m * liner.rods_per_round
+    samples, rods = record.samples_per_round, liner.m * liner.nu
     held = (
-        DOUBLE * 2 * liner.rods_per_round
+        DOUBLE * 2 * liner.nu
         + SINGLE * rods * record.wear
         + SINGLE * (record.spectrum_rounds or 0) * samples / 2
         + DOUBLE * rounds * samples * len(record.chord)
         + DOUBLE * ((record.states_rounds or 0) * samples * n + n**2)
-        + SINGLE * (record.spectrum_rounds or 1) * samples * len(record.grids)
+        + SINGLE * record.rounds_of_spectrum * samples * len(record.grids)
     )
     u_r = record.rounds_of_u_r(rounds) * samples * (1 + len(record.chord))
     marched = DOUBLE * (2 * rods + u_r + 2 * record.rounds_of_states * samples * n)

@@ -21,6 +21,7 @@ from geometry.project import (
     anew,
     check_settings,
     code_hash,
+    known,
     require_format,
     version,
 )
@@ -418,8 +419,8 @@ def left_of(run: xr.Dataset) -> Left:
     of: dict[str, Any] = {field.name: run[f"{END}{field.name}"].values for field in fields(Left)}
     window = np.isfinite(of["part"]).all(axis=0)
     of |= {name: of[name][:, window] for name in ("part", "stored")}
-    numbers = {"Omega": float(of["Omega"]), "h": float(of["h"]), "rounds": int(of["rounds"])}
-    return Left(**of | numbers)
+    of |= {"Omega": float(of["Omega"]), "h": float(of["h"]), "rounds": int(of["rounds"])}
+    return Left(**of)
 
 
 def course(run: xr.Dataset) -> dict[str, Any]:
@@ -496,10 +497,10 @@ def _of_friction(run: Run) -> dict[str, Any]:
     """Stability of the blade in sliding contact, and whether it slid."""
     scene, setup = run.scene, run.setup
     modes = setup.omega, setup.Phi_b, setup.Phi_t
-    k = strip_stiffness(scene.liner, setup.places)
+    k, mu = strip_stiffness(scene.liner, setup.places), known(scene.contact.friction, "friction")
     return {
         "mu_crit": mu_crit(modes, k),
-        "growth_rate": growth_rate(modes, scene.contact.friction, scene.damping_ratio, k),
+        "growth_rate": growth_rate(modes, mu, scene.damping_ratio, k),
         "least_sliding": run.outcome.facts.least_sliding,
     }
 
@@ -516,7 +517,7 @@ def _asked_for(run: Run) -> dict[str, Any]:
         (record.motion, _of_motion),
         (record.gauges, _of_gauges),
         (scene.contact.friction, _of_friction),
-        (isinstance(scene.liner.law, Table), _of_curve),
+        (True, _of_curve),
     )
     return {name: of for wanted, make in made if wanted for name, of in make(run).items()}
 
@@ -527,9 +528,13 @@ def _of_wear(run: Run) -> dict[str, Any]:
 
 
 def _of_curve(run: Run) -> dict[str, Any]:
-    """How far rods went along a measured curve."""
-    liner = run.scene.liner
-    return {"curve_share": run.outcome.wear.max() / (liner.thickness_m * liner.law.farthest)}
+    """How far rods went along a measured curve, where the law is one."""
+    liner, law = run.scene.liner, run.scene.liner.law
+    return (
+        {"curve_share": run.outcome.wear.max() / (liner.thickness_m * law.farthest)}
+        if isinstance(law, Table)
+        else {}
+    )
 
 
 def _of_history(run: Run) -> dict[str, Any]:
@@ -541,7 +546,7 @@ def _of_history(run: Run) -> dict[str, Any]:
 
 def _of_states(run: Run) -> dict[str, Any]:
     """States of the last revolutions, and their displacements over the strips."""
-    rounds, samples = run.scene.record.states_rounds, run.scene.record.samples_per_round
+    rounds, samples = run.scene.record.rounds_of_states, run.scene.record.samples_per_round
     time = run.scene.rounds - rounds + np.arange(1, rounds * samples + 1) / samples
     return {"states": run.outcome.states, "P": run.rom.rows(run.setup.places.xi), "time": time}
 
@@ -549,11 +554,11 @@ def _of_states(run: Run) -> dict[str, Any]:
 def _of_spectrum(run: Run) -> dict[str, Any]:
     """Amplitudes and largest value of u_r over the spectrum's revolutions; nan without a result."""
     record, outcome = run.scene.record, run.outcome
-    samples = record.spectrum_rounds * record.samples_per_round
+    samples = record.rounds_of_spectrum * record.samples_per_round
     values, largest = np.full(samples // 2 + 1, np.nan, np.float32), np.nan
     if outcome.status in WITH_RESULT:
         values, largest = last_spectrum(run), outcome.u_r[-samples:, 0].max()
-    orders = np.arange(len(values)) / record.spectrum_rounds
+    orders = np.arange(len(values)) / record.rounds_of_spectrum
     return {"spectrum": values, "largest": largest, "engine_order": orders}
 
 
@@ -576,7 +581,7 @@ def _of_gauges(run: Run) -> dict[str, Any]:
     """Strain and stress along gauges: of the vibration over time, and of rotation."""
     strain, stress = np.split(run.outcome.gauges.T.astype(np.float32), 2)
     static = evaluate(run.rom.gauge_rows, run.setup.Omega)[..., 0]
-    rounds, times = run.scene.record.spectrum_rounds or 1, strain.shape[1]
+    rounds, times = run.scene.record.rounds_of_spectrum, strain.shape[1]
     return {
         "gauge": [*run.scene.record.grids],
         "gauge_time": run.scene.rounds - rounds + np.arange(1, times + 1) * rounds / times,
@@ -590,7 +595,7 @@ def _of_gauges(run: Run) -> dict[str, Any]:
 def _of_motion(run: Run) -> dict[str, Any]:
     """Data of pictures: states of the last revolution, and the range of u_r over all of them."""
     scene, outcome, samples = run.scene, run.outcome, run.scene.record.samples_per_round
-    step = every(scene.record.motion, samples, run.setup.omega, run.setup.Omega)
+    step = every(known(scene.record.motion, "motion"), samples, run.setup.omega, run.setup.Omega)
     edges = np.rint(np.arange(WINDOWS * scene.rounds) * samples / WINDOWS).astype(int)
     bounds = [of.reduceat(outcome.u_r[:, 0], edges) for of in (np.minimum, np.maximum)]
     return {

@@ -171,8 +171,10 @@ class Engine:
         while speeds:
             runs += [self._march(scene, Omega, report) for Omega in speeds]
             known = self._table(runs)
-            speeds = halfway(
-                scene.peaks, self.rom.f1, known["speed"], self.peaks_among(known, scene)
+            speeds = (
+                halfway(scene.peaks, self.rom.f1, known["speed"], self.peaks_among(known, scene))
+                if scene.peaks
+                else []
             )
         runs, left = checked(runs, scene.checked_share, left, report)
         return self._table(runs), left
@@ -202,7 +204,7 @@ def _numbers(run: Run, orders: Sequence[int]) -> tuple:
     outcome = run.outcome
     found = numbers(run) | {
         "speed": run.setup.Omega,
-        "speed_over_f1": dataset.over_f1(run.setup.Omega, run.rom),
+        "speed_over_f1": dataset.over_f1(np.array(run.setup.Omega), run.rom),
         "status": STATUSES.index(outcome.status),
         "rounds": outcome.rounds,
         "trend": TRENDS.index(outcome.trend),
@@ -221,7 +223,7 @@ def _numbers(run: Run, orders: Sequence[int]) -> tuple:
     return tuple(found.get(name, np.nan) for name in COLUMNS)
 
 
-def _amplitudes(run: Run, orders: Sequence[int]) -> NDArray[np.float32]:
+def _amplitudes(run: Run, orders: Sequence[int]) -> NDArray[np.floating]:
     """Amplitudes along ``orders``; nan without a spectrum."""
     rounds = run.scene.record.spectrum_rounds
     if not rounds or run.outcome.status not in WITH_RESULT:
@@ -403,7 +405,7 @@ def _runs(table: xr.Dataset, row_type: np.dtype) -> NDArray:
     if shape != row_type["amplitudes"].shape:
         raise ProvenanceError("has other columns than those of this design: run it again")
     runs = np.zeros(table.sizes["run"], row_type)
-    for name in row_type.names:
+    for name in COLUMNS:
         runs[name] = table[name].values
     return runs
 

@@ -1,6 +1,6 @@
 """One scene at given speeds: checks, the cost beforehand, and a run at each speed."""
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 from time import perf_counter
 
@@ -62,7 +62,7 @@ def check_steps(scene: Scene, rom: Rom, choice: Choice | None = None) -> None:
 def at_speeds(
     scene: Scene,
     rom: Rom,
-    speeds: Sequence[float],
+    speeds: Collection[float],
     report: Say = silent,
     choice: Choice | None = None,
     start: xr.Dataset | None = None,

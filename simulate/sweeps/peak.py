@@ -16,6 +16,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from geometry.blade import RPM
+from geometry.project import known
 from rom.model import Rom
 from simulate.errors.observables import Numbers
 from simulate.errors.signals import amplitude, leading_gap
@@ -67,14 +68,13 @@ class Peak:
     @property
     def over_crossing(self) -> float:
         """Omega_c over the linear crossing."""
-        return self.Omega_c / self.crossing
+        return self.Omega_c / known(self.crossing, "crossing")
 
     @property
     def reported(self) -> bool:
         """Whether figures and tables name it: it is clear, or high at an end of the sweep."""
-        if self.at_end:
-            return self.amplitude >= LEAST_AT_END
-        return self.clear and self.amplitude >= LEAST
+        least = LEAST_AT_END if self.at_end else LEAST
+        return (self.at_end or self.clear) and known(self.amplitude, "amplitude") >= least
 
     def plain(self) -> dict[str, Any]:
         """All fields as plain values; of a peak along an engine order ``over_crossing`` as well."""
@@ -125,8 +125,8 @@ def critical(rom: Rom, operating: Mapping[str, Any]) -> dict[str, Any]:
     ``operating``, with ``Hz``, frequencies of the modes at each line; ``crossings``; the speeds,
     rpm, ``through`` which f^2 goes on linearly above the last of them, and ``up_to`` which.
     """
-    modes, pairs = operating["modes"], [(1, k) for k in operating["peaks"]]
-    pairs += product(range(1, modes + 1), operating["orders"])
+    modes, orders = operating["modes"], operating["orders"]
+    pairs = [*product([1], operating["peaks"]), *product(range(1, modes + 1), orders)]
     found = [_crossing(rom, mode, k) for mode, k in pairs]
     return {
         **operating,
@@ -159,7 +159,7 @@ def along_order(runs: xr.Dataset, k: int | None = None) -> NDArray[np.float64]:
 
     Without ``k`` the largest of all orders. nan where a run has no spectrum.
     """
-    rounds = scene_of(runs).record.spectrum_rounds
+    rounds = scene_of(runs).record.rounds_of_spectrum
     along = amplitude(runs["spectrum"].values, rounds, k)  # single precision, as files hold it
     return along.astype(float) / leading_gap(runs)
 

@@ -24,7 +24,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from geometry.project import Say, SettingsError, progress, silent
+from geometry.project import Say, SettingsError, known, progress, silent
 from rom.coarser import coarser
 from rom.model import Rom, RomError
 from simulate.errors.bistable import LAST, change, jump, largest
@@ -238,7 +238,7 @@ def _of_other_fineness(case: Case) -> dict[str, tuple[Neighbour, float]]:
     None where there are none. A rigid casing takes no more strips than patches: there one run is
     coarser in all.
     """
-    if case.scene.integrator.scheme != "piecewise-exact" or case.left is not None:
+    if case.scene.stepping.scheme != "piecewise-exact" or case.left is not None:
         return {}
     try:
         coarse, _ = coarser(case.rom)
@@ -260,7 +260,7 @@ def between_speeds(peak: Peak, zeta: float) -> float:
     oscillator near its resonance. Inf, not known, where it may be over twice as high.
     """
     width = zeta * peak.Omega_c
-    rise = hypot(1.0, peak.spacing / 2 / width) - 1 if width else inf
+    rise = hypot(1.0, known(peak.spacing, "spacing") / 2 / width) - 1 if width else inf
     return rise if rise <= MOST_RISE else inf
 
 

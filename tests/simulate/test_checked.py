@@ -92,7 +92,7 @@ def alone(steps_a_period, lost, status="ok", contact=0.5, scheme="piecewise-exac
     )
     setup = SimpleNamespace(omega=np.array([2 * np.pi, 9e9]), h=1 / steps_a_period)
     return Run(
-        SimpleNamespace(integrator=SimpleNamespace(scheme=scheme)), None, setup, outcome=outcome
+        SimpleNamespace(stepping=SimpleNamespace(scheme=scheme)), None, setup, outcome=outcome
     )
 
 

@@ -71,6 +71,7 @@ def outcome(scale=1.0, status="ok", **changes):
         casing_work=np.zeros(2),
         contact_share=0.5,
         each=Rounds(scale * np.array([[-3.0, 3.0]] * 2), scale * np.arange(3)),
+        gauges=np.empty((0, 0)),
     )
     return replace(run, **changes)
 
@@ -261,7 +262,7 @@ def of_order(order, error):
 def test_three_runs_bound_the_error_by_little_more(order, error):
     """By a third for order one, by two thirds for order two. Changes are over the finest run."""
     case = exact()
-    runs = (made(case.record, run, integrator=case.integrator) for run in of_order(order, error))
+    runs = (made(case.record, run, stepping=case.stepping) for run in of_order(order, error))
     *_, found = from_quarter(*runs)
     assert error <= found <= {1: 1.34, 2: 1.67}[order] * error
 

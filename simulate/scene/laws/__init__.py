@@ -6,9 +6,9 @@ A law defined elsewhere is named ``module:class``.
 from collections.abc import Callable
 from importlib import import_module
 from pkgutil import iter_modules
-from typing import Annotated, Any
+from typing import Annotated, Any, Union
 
-from pydantic import WrapSerializer, WrapValidator
+from pydantic import GetPydanticSchema, WrapSerializer, WrapValidator
 
 from geometry.project import one_of
 from simulate.scene.law import Law
@@ -30,8 +30,7 @@ def _from_elsewhere(value: Any, of_ours: Callable[[Any], Law]) -> Law:
     if isinstance(value, type) and issubclass(value, Law):
         numbers = ", ".join(f"{name}=..." for name in value.model_fields if name != "kind")
         raise ValueError(f"a class: give a law with its numbers, {value.__name__}({numbers})")
-    kind = value.get("kind") if isinstance(value, dict) else None
-    if not isinstance(kind, str) or ":" not in kind:
+    if not (isinstance(value, dict) and isinstance(kind := value.get("kind"), str) and ":" in kind):
         return of_ours(value)
     module, _, name = kind.partition(":")
     try:
@@ -49,9 +48,13 @@ def _with_kind(law: Law, plain: Callable[[Law], Any]) -> Any:
     """Parameters and ``kind`` of a law, as plain values."""
     if isinstance(law, LAWS):
         return plain(law)
-    return {"kind": f"{type(law).__module__}:{type(law).__qualname__}", **law.model_dump()}
+    return {"kind": law.called, **law.model_dump()}
 
 
 AnyLaw = Annotated[
-    one_of("law", "kind", *LAWS), WrapValidator(_from_elsewhere), WrapSerializer(_with_kind)
+    Law,
+    GetPydanticSchema(lambda _, schema_of: schema_of(Union[LAWS])),  # noqa: UP007
+    one_of("law", "kind", *LAWS),
+    WrapValidator(_from_elsewhere),
+    WrapSerializer(_with_kind),
 ]

@@ -4,15 +4,13 @@ from typing import Literal
 
 from pydantic import Field
 
-from simulate.scene.law import Modulus, Unit, Unloading
+from simulate.scene.law import Unloading
 
 
 class Elastic(Unloading):
     """Linear elastic law."""
 
     kind: Literal["elastic"] = Field(description="no wear, K infinite")
-    E: Modulus
-    unit_Pa: Unit
 
     @staticmethod
     def stress(law, eps, eps_p):

@@ -9,7 +9,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from simulate.scene.law import Modulus, Unit, Unloading
+from simulate.scene.law import Unloading
 
 
 class Plastic(Unloading):
@@ -18,10 +18,8 @@ class Plastic(Unloading):
     kind: Literal["plastic"] = Field(
         description="the paper's, with linear hardening and wear, Eqs. (9)-(16)"
     )
-    E: Modulus
     K: float = Field(ge=0, le=1e9, description="Plastic modulus (in unit_Pa)")
     sigma_Y: float = Field(ge=0, le=1e9, description="Elastic limit (in unit_Pa)")
-    unit_Pa: Unit
 
     @staticmethod
     def stress(law, eps, eps_p):

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from geometry.project import checked
-from simulate.scene.law import Modulus, Unit, Unloading
+from simulate.scene.law import Unloading
 from simulate.scene.tables import Points, from_csv
 
 # Columns of the file: the key that each stands for, and its factor to SI
@@ -72,8 +72,6 @@ class Table(Unloading):
     kind: Literal["table"] = Field(
         description="a measured compression curve, with wear; unloads along E"
     )
-    E: Modulus
-    unit_Pa: Unit
     curve: Annotated[Curve, from_csv(Curve, STRAIN, STRESS)] = Field(
         description="Compression curve as a CSV file: strain, and stress in Pa, kPa or MPa"
     )
