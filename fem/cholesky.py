@@ -9,6 +9,15 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_matrix
 
 
+def petsc_matrix(A: csr_matrix, values: NDArray[np.float64]) -> PETSc.Mat:
+    """Symmetric positive definite matrix with the pattern of A, that reads the array ``values``."""
+    matrix = PETSc.Mat().createAIJWithArrays(
+        A.shape, (A.indptr, A.indices, values), comm=PETSc.COMM_SELF
+    )
+    matrix.setOption(PETSc.Mat.Option.SPD, True)
+    return matrix
+
+
 class Cholesky:
     """Factor of one matrix at a time, the last one that was given to ``of``.
 
@@ -16,10 +25,11 @@ class Cholesky:
     factorisation.
     """
 
+    matrix: PETSc.Mat  # the factorised one
+    _pc: PETSc.PC
+
     def __init__(self) -> None:
         self._A: csr_matrix | None = None
-        self._pc: PETSc.PC | None = None
-        self.matrix: PETSc.Mat | None = None  # the factorised one
 
     def of(self, A: csr_matrix) -> Self:
         """Factorise the symmetric (n, n) matrix A, unless this is its factor already."""
@@ -71,10 +81,7 @@ class Cholesky:
     def _prepare(self, A: csr_matrix) -> None:
         """Solver of a matrix with the pattern and values of A, not yet factorised."""
         self._values = A.data.copy()  # PETSc reads this array
-        self.matrix = PETSc.Mat().createAIJWithArrays(
-            A.shape, (A.indptr, A.indices, self._values), comm=PETSc.COMM_SELF
-        )
-        self.matrix.setOption(PETSc.Mat.Option.SPD, True)
+        self.matrix = petsc_matrix(A, self._values)
         self._pc = PETSc.PC().create(PETSc.COMM_SELF)
         self._pc.setOperators(self.matrix)
         self._pc.setType(PETSc.PC.Type.CHOLESKY)

@@ -93,10 +93,10 @@ def linearised(
     at, v = solid.field(u), fem.Function(solid.V)
     tensors = _strain_and_stress(solid, at, prestress)
     rates = [_expression(solid, ufl.derivative(of, at, v)) for of in tensors]
-    found = [[_expression(solid, of) for of in tensors]] + [rates] * len(along)
-    for row, direction in enumerate([0.0, *along]):
+    values, found = [_expression(solid, of) for of in tensors], []
+    for of_row, direction in zip([values] + [rates] * len(along), [0.0, *along], strict=True):
         v.x.array[solid.free] = direction
-        found[row] = [_averaged(solid, of, cells)[nodes] for of in found[row]]
+        found.append([_averaged(solid, of, cells)[nodes] for of in of_row])
     strain, sigma = np.array(found)[..., *TENSOR].swapaxes(0, 1)
     return strain, sigma
 
@@ -133,7 +133,7 @@ class Fields:
     """Displacement, strain and stress at the nodes of the mesh, clamped ones included."""
 
     points: NDArray[np.float64]  # (nodes, 3), m, undeformed
-    cells: NDArray[np.int64]  # (cells, 10), ten-node tetrahedra in VTK's order
+    cells: NDArray[np.integer]  # (cells, 10), ten-node tetrahedra in VTK's order
     static: NDArray[np.float64]  # (nodes, 3), m, deflection under rotation
     vibration: NDArray[np.float64]  # (nodes, 3), m, about it
     total: Stress  # of their sum
@@ -161,8 +161,8 @@ class Fields:
 
 def save_vtu(
     points: NDArray[np.float64],
-    cells: NDArray[np.int64],
-    data: Mapping[str, NDArray[np.float64]],
+    cells: NDArray[np.integer],
+    data: dict[str, NDArray[np.float64]],
     path: str | Path,
     numbers: Mapping[str, float] | None = None,
 ) -> None:
@@ -230,7 +230,7 @@ def on_solid(
     )
 
 
-def grid_of(solid: Solid) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+def grid_of(solid: Solid) -> tuple[NDArray[np.integer], NDArray[np.float64]]:
     """Cells (cells, 10), ten-node tetrahedra in VTK's order, and points (nodes, 3), m."""
     cells, _, points = vtk_mesh(solid.V)
     return cells.reshape(-1, 11)[:, 1:], points
@@ -248,16 +248,14 @@ def away(
     mesh, under the contact with the patches.
     """
     points = solid.V.tabulate_dof_coordinates()
-    places = points if places is None else places
+    at = points if places is None else places
     length = np.ptp(np.hypot(points[:, 0], points[:, 1]))
     ends = solid.clamped_coordinates(), points[np.unique(solid.tip)]
     widths = (AWAY * length if width is None else width for width in (from_clamp, from_tip))
     near = [
-        cKDTree(of).query(places)[0] <= width
-        for of, width in zip(ends, widths, strict=True)
-        if len(of)
+        cKDTree(of).query(at)[0] <= width for of, width in zip(ends, widths, strict=True) if len(of)
     ]
-    return ~np.any(near, axis=0) if near else np.ones(len(places), bool)
+    return ~np.any(near, axis=0) if near else np.ones(len(at), bool)
 
 
 def gauge_rows(
@@ -313,14 +311,14 @@ def grid(
     facets = exterior(cells)
     surface = pv.PolyData.from_regular_faces(points, facets[:, :3])
     at, direction = A @ gauge.at, A @ gauge.direction
-    facet, foot = surface.find_closest_cell(at, return_closest_point=True)
+    facet, foot = _closest(surface, at)
     normal = normals(facets[[facet]], points)[0]
     across = np.cross(normal, direction)
     sides = np.cross(across, normal), across * np.sign(np.linalg.det(A))  # A may mirror
     first, second = (of / (np.linalg.norm(of) or 1.0) for of in sides)
     e = np.cos(np.radians(angle)) * first + np.sin(np.radians(angle)) * second
     places = foot + 1e-3 * gauge.length_mm * (middles(PLACES)[:, None] - 0.5) * e
-    under, feet = surface.find_closest_cell(places, return_closest_point=True)
+    under, feet = _closest(surface, places)
     for refused, why in (
         (
             (off := np.linalg.norm(at - foot)) > FARTHEST,
@@ -350,6 +348,11 @@ def grid(
     local = (np.linalg.pinv(edges) @ (feet - a)[..., None])[..., 0]
     weights = (shape_functions(local) / PLACES).ravel()
     return np.bincount(facets[under].ravel(), weights, len(points)), np.outer(e, e)[TENSOR] * TWICE
+
+
+def _closest(surface: pv.PolyData, points: NDArray[np.float64]) -> tuple[Any, Any]:
+    """Facet of the surface closest to each of the ``points`` (..., 3), m, and the place on it."""
+    return surface.find_closest_cell(points, return_closest_point=True)  # pyright: ignore[reportReturnType]
 
 
 def dofs_at(coordinates: NDArray, points: NDArray) -> NDArray[np.int64]:

@@ -20,6 +20,7 @@ from geometry.project import (
     csv_rows,
     file_hash,
     fingerprint,
+    known,
     numbers,
 )
 from geometry.tip import PLACES, cartesian, on_line
@@ -87,12 +88,12 @@ def read_matrices(blade: GivenMatrices, name: str, folder: str | Path) -> Matric
 
 def _of_nodes(of: FullMatrices, folder: Path) -> Deck:
     """Nodes of a table, all free, and facets of the tip between them."""
-    nodes = _table(folder / of.nodes, XYZ)
+    nodes = _table(folder / known(of.nodes, "nodes"), XYZ)
     return Deck(
         numbers=np.arange(len(nodes)) + 1,
         clamped=np.empty(0, dtype=int),
         coordinates=nodes,
-        hub_radius=of.hub_radius_m,
+        hub_radius=known(of.hub_radius_m, "hub_radius_m"),
         points=nodes,
         tip=_facets(folder / of.tip, len(nodes)) if of.tip else np.empty((0, 6), dtype=int),
         weights=eye_array(len(nodes)),
@@ -114,17 +115,17 @@ def _interface(
             "for each of `patches` and `nodes`",
         ),
     )
-    return S, _camber(_table(folder / of.camber, XYZ))
+    return S, _camber(_table(folder / known(of.camber, "camber"), XYZ))
 
 
 def _check(fom: Matrices, of: FullMatrices, folder: Path) -> None:
     """Check that the matrices are those of a blade in SI, in its frame, at its nodes."""
-    mesh = of.mesh_file.file if of.mesh_file else of.nodes
+    mesh = of.mesh_file.file if of.mesh_file else known(of.nodes, "nodes")
     require(folder / (of.camber or mesh), *tip_checks(fom.camber, fom.span, fom.top_speed))
     measures = [
         *_of_mass(fom, of),
         *_of_stiffness(fom, of),
-        *(_of_operator(fom, of) if of.S else ()),
+        *(_of_operator(fom, of.S) if of.S else ()),
     ]
     for file, what, value, (least, most), remedy in measures:
         fault = f"{what}: {value:.3g}, allowed {least:g} to {most:g}: {remedy}"
@@ -235,8 +236,8 @@ def _of_stiffness(fom: Matrices, of: FullMatrices) -> list[Measure]:
     ]
 
 
-def _of_operator(fom: Matrices, of: FullMatrices) -> list[Measure]:
-    """S finds translations in the directions of each patch, and the nodes at its place."""
+def _of_operator(fom: Matrices, file: str) -> list[Measure]:
+    """S, of ``file``, finds translations in the directions of each patch, and the nodes there."""
     line = on_line(fom.camber, fom.xi)
     chord = np.linalg.norm(np.diff(cartesian(line[[0, -1]]), axis=0))
     fields = np.column_stack(
@@ -246,7 +247,7 @@ def _of_operator(fom: Matrices, of: FullMatrices) -> list[Measure]:
     error = abs((fom.S @ fields).reshape(known.shape) - known).max(axis=(1, 2))
     return [
         (
-            of.S,
+            file,
             f"error of patch {error.argmax() + 1} in unit translations, or of its place over the "
             f"chord",
             error.max(),

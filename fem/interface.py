@@ -54,7 +54,7 @@ def interface_of(solid: Solid, blade: Blade) -> Interface:
 
 
 def on_patches(
-    points: NDArray[np.float64], facets: NDArray[np.int64], free: NDArray[np.int64], patches: int
+    points: NDArray[np.float64], facets: NDArray, free: NDArray, patches: int
 ) -> tuple[csr_matrix, NDArray[np.float64]]:
     """S (3 patches, n_full) on the tip's ``facets`` (k, 6) between ``points`` (n, 3), m; camber.
 
@@ -81,9 +81,7 @@ def on_patches(
     return _assembled(rows, free), tip.camber_line()
 
 
-def at_places(
-    weights: csr_matrix, places: NDArray[np.float64], free: NDArray[np.int64]
-) -> csr_matrix:
+def at_places(weights: csr_matrix, places: NDArray[np.float64], free: NDArray) -> csr_matrix:
     """S (3 places, n_full) at ``places`` (places, 3), m, in radial, tangential, axial direction.
 
     ``weights`` (places, nodes): of the displacements of the mesh's nodes; ``free``: as of
@@ -99,7 +97,7 @@ def quadrature(nodes: NDArray) -> tuple[NDArray, NDArray, NDArray]:
 
     ``nodes`` (facets, 6, 3), m, are the nodes of the facets.
     """
-    x, weights = basix.make_quadrature(basix.CellType.triangle, DEGREE)
+    x, weights = map(np.asarray, basix.make_quadrature(basix.CellType.triangle, DEGREE))
     values = shape_functions(x)
     at = np.einsum("qn,knd->kqd", values, nodes)
     tangents = np.einsum("qne,knd->ekqd", shape_gradients(x), nodes)

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_matrix
 
 from geometry.project import Provenance
-from geometry.stored import Stored, stored
+from geometry.stored import Stored, frozen, stored
 
 CODE = ("fem.assemble",)  # module that computes its numbers; the mesh has a hash of its own
 
@@ -24,7 +24,7 @@ class State:
     residual: float  # equilibrium residual over the centrifugal load
 
 
-@dataclass(frozen=True)
+@frozen
 class Interface:
     """S, with the places of the interface on the tip."""
 
@@ -37,7 +37,7 @@ class Interface:
     camber: NDArray[np.float64] = stored("camber_place rtz", "m, rad, m")
 
 
-@dataclass(frozen=True)
+@frozen
 class Constants(Interface):
     """M, the interface operator S and all else that does not depend on the speed, free DoFs.
 
@@ -55,7 +55,7 @@ class Constants(Interface):
         return self.S[np.arange(self.S.shape[0]) % 3 < directions]
 
 
-@dataclass(frozen=True)
+@frozen
 class Matrices(Constants, Stored):
     """The constants, with K(Omega) and static deflections at some speeds."""
 

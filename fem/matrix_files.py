@@ -145,7 +145,7 @@ def _dmig(path: Path, letter: str) -> FileMatrix:
 def _full(path: Path, letter: str) -> FileMatrix:
     """M or K of Ansys; rows of constrained directions are zero."""
     try:
-        from ansys.mapdl.reader import read_binary
+        from ansys.mapdl.reader import read_binary  # pyright: ignore[reportMissingImports]  optional
     except ImportError:
         raise GivenError("needs ansys-mapdl-reader: see fem/matrices.md", file=path) from None
     rows, K, M = read_binary(str(path)).load_km(sort=False)

@@ -1,6 +1,6 @@
 """Prestressed states: static deflection and K(Omega), Eqs. (a)-(d) of the package."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from fem.petsc import PETSc
 
@@ -31,7 +31,7 @@ class EquilibriumError(UserError):
 
 
 def nonlinear_states(
-    solid: Solid, speeds: NDArray[np.float64], cholesky: Cholesky | None = None
+    solid: Solid, speeds: Iterable[float], cholesky: Cholesky | None = None
 ) -> Iterator[State]:
     """States of prestress `nonlinear` at ascending ``speeds`` (rad/s).
 
@@ -96,7 +96,7 @@ class _Equilibria:
         target = speed
         while True:
             last = self._last
-            self.Omega.value = target
+            self.Omega.value[...] = target
             self.u.x.array[:] = _start(self._equilibria[-3:], target)
             try:
                 residual = self._find(target, last, modified=target == speed)
@@ -117,13 +117,13 @@ class _Equilibria:
         """
         load, start = speed**2 * self._load, self.u.x.array.copy()
         if modified and self._cholesky and self._cholesky.made:
-            residual = self._modified_newton(load)
+            residual = self._modified_newton(self._cholesky, load)
             if residual <= RESIDUAL_TOLERANCE and self._cholesky.negative == 0:
                 return residual
             self.u.x.array[:] = start
         return _solve(self._problem, speed, load, last)
 
-    def _modified_newton(self, load: float) -> float:
+    def _modified_newton(self, cholesky: Cholesky, load: float) -> float:
         """Iterate with the factor of the last state's K; where that gains little, with a new one.
 
         Returns the residual over the load.
@@ -132,14 +132,14 @@ class _Equilibria:
         reached, old = np.linalg.norm(r) / load, True
         while reached > MODIFIED_TOLERANCE and factors <= FACTORS:
             before, last = reached, (u.copy(), r)
-            u[self._free] -= self._cholesky.solve(r[:, None])[:, 0]
+            u[self._free] -= cholesky.solve(r[:, None])[:, 0]
             r = self._residual_of_u()
             reached = np.linalg.norm(r) / load
             if not reached < before and old:  # a new factor's first steps may rise
                 (u[:], r), reached = last, before
             old = reached < GAIN * before
             if not old:
-                self._cholesky.of(self._tangent.matrix())
+                cholesky.of(self._tangent.matrix())
                 factors += 1
         return float(reached)
 
@@ -159,18 +159,19 @@ def _start(equilibria: list[tuple[float, NDArray]], Omega: float) -> NDArray | f
 
 
 def linear_states(
-    solid: Solid, speeds: NDArray[np.float64], cholesky: Cholesky | None = None
+    solid: Solid, speeds: Iterable[float], cholesky: Cholesky | None = None
 ) -> Iterator[State]:
     """States of prestress `linear`, Eq. (d): K is linear in Omega^2 by construction.
 
     ``cholesky`` is not used: no equilibrium is iterated.
     """
     v, du = ufl.TestFunction(solid.V), ufl.TrialFunction(solid.V)
-    x = ufl.SpatialCoordinate(solid.mesh)
+    x, u1 = ufl.SpatialCoordinate(solid.mesh), fem.Function(solid.V)
     elastic = ufl.inner(solid.stress(small_strain(du)), small_strain(v)) * solid.dx
-    u1 = LinearProblem(
+    LinearProblem(
         elastic,
         solid.spin_load(x, v),
+        u=u1,
         bcs=[solid.clamp],
         petsc_options_prefix="static_",
         petsc_options=DIRECT,

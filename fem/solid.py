@@ -15,7 +15,7 @@ from dolfinx.io.gmsh import model_to_mesh
 from dolfinx.mesh import Mesh
 
 from geometry.blade import Material
-from geometry.project import intact
+from geometry.project import intact, known
 from geometry.shape import session
 
 BASIX_TO_VTK = np.array([0, 1, 2, 5, 3, 4])  # basix: the middles opposite the corners 0, 1, 2
@@ -77,7 +77,7 @@ class SymmetricForm:
 
     def __init__(self, form: ufl.Form, free: NDArray[np.int32]) -> None:
         self._form = fem.form(form)
-        self._assembled = fem.create_matrix(self._form)
+        self._assembled = fem.create_matrix(self._form)  # pyright: ignore[reportArgumentType]  one form
         places = self._assembled.to_scipy().astype(np.int64)
         places.data.flat = np.arange(places.data.size)
         # of the entries of the matrix and its transpose, free rows and columns
@@ -118,7 +118,10 @@ def read_solid(mesh_path: str, material: Material) -> Solid:
         data = model_to_mesh(gmsh.model, MPI.COMM_SELF, 0, gdim=3)
     V = fem.functionspace(data.mesh, ("Lagrange", 2, (3,)))
     data.mesh.topology.create_connectivity(2, 3)
-    root, tip = (data.facet_tags.find(data.physical_groups[g].tag) for g in ("root", "tip"))
+    root, tip = (
+        known(data.facet_tags, group).find(data.physical_groups[group].tag)
+        for group in ("root", "tip")
+    )
     clamped = fem.locate_dofs_topological(V, 2, root)
     return make_solid(data.mesh, material, V, clamped, _facet_nodes(V, tip))
 

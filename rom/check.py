@@ -1,7 +1,6 @@
 """``rom-check-<directions>.nc``: the reduced model against the full one over its speed range."""
 
 import warnings
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
@@ -9,7 +8,7 @@ from numpy.typing import NDArray
 
 from geometry.hats import hats
 from geometry.project import Caution, Provenance
-from geometry.stored import Stored, stored
+from geometry.stored import Stored, frozen, stored
 from rom.between import error_between
 from rom.full_model import FullModel
 from rom.model import CODE, Rom, RomError
@@ -21,7 +20,7 @@ APART = 5.0  # times that c of neighbours may differ: at most 3.7 times on the b
 SMALL = 0.1  # of the tolerance: an error that does not matter
 
 
-@dataclass(frozen=True)
+@frozen
 class RomCheck(Stored):
     """Frequencies and static compliance of the tip of full and reduced model."""
 

@@ -47,7 +47,7 @@ def coarser(rom: Rom) -> tuple[Rom, NDArray[np.float64]]:
     return replace(rom, M=project(rom.M, T), K=K, xi=nodes, growth=growth, gauges=()), T
 
 
-def _components(rom: Rom, Omega: float, S: NDArray[np.float64], modes: int) -> Components:
+def _components(rom: Rom, Omega: float, S: NDArray[np.floating], modes: int) -> Components:
     """Constraint modes for c' = S u, and ``modes`` natural modes, of the reduced model."""
     A = np.linalg.solve(rom.stiffness(Omega), S.T)
     return Components(np.linalg.solve(S @ A, A.T).T, rom.modes(Omega)[1][:, :modes])

@@ -151,9 +151,11 @@ def _values(path: str | Path) -> dict[str, Any]:
 def _rom(found: dict[str, Any], blade: str, mesh: str) -> Rom:
     """The model of the values in a file, with the settings by which a coarser one is made."""
     arrays = ("M", "K", "xi", "points", "camber", "growth", "speeds")
-    values = {name: np.asarray(found[name], float) for name in arrays if name in found}
-    values.setdefault("points", np.empty((0, 3)))
-    scalars = {name: float(found.get(name, np.nan)) for name in ("Omega_m", "span", "f1")}
+    values: dict[str, Any] = {
+        "points": np.empty((0, 3)),
+        **{name: np.asarray(found[name], float) for name in arrays if name in found},
+        **{name: float(found.get(name, np.nan)) for name in ("Omega_m", "span", "f1")},
+    }
     directions = tuple(map(str, np.atleast_1d(found["directions"])))
     own = len(values["M"]) - len(directions) * len(values["xi"])  # besides those of the interface
     basis = EnrichedBasis(
@@ -161,7 +163,7 @@ def _rom(found: dict[str, Any], blade: str, mesh: str) -> Rom:
     )
     settings = {"reduced_model": mesh, "basis": settings_of_basis(basis)}
     provenance = Provenance(blade, mesh, settings, code_hash(*CODE))
-    return Rom(**values, **scalars, directions=directions, provenance=provenance)
+    return Rom(**values, directions=directions, provenance=provenance)
 
 
 def _first_frequency(rom: Rom) -> float:
@@ -177,7 +179,7 @@ def _shape_faults(rom: Rom, power: NDArray) -> list[str]:
     held = (rom.M, rom.K, rom.xi, rom.points, rom.camber, rom.growth, rom.Omega_m, rom.span)
     return failed(
         (
-            rom.M.shape == (n, n) and rom.K.shape[1:] == (n, n) and rom.K.size,
+            rom.M.shape == (n, n) and rom.K.shape[1:] == (n, n) and rom.K.size > 0,
             f"M {rom.M.shape}, K {rom.K.shape}: need (n, n) and (powers, n, n), none 0",
         ),
         (

@@ -1,7 +1,7 @@
 """``full-model.nc``: results of the full model with which a reduced model is compared."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Self
 
 import numpy as np
@@ -11,14 +11,14 @@ from fem.cholesky import Cholesky
 from fem.matrices import CODE, Constants, State
 from geometry.hats import hat_nodes, hats, middles
 from geometry.project import Provenance
-from geometry.stored import Stored, stored
+from geometry.stored import Stored, frozen, stored
 from rom.modes import ShiftInvert
 
 MODES = 10  # frequencies compared
 SHAPES = 5  # mode shapes at rest, for figures
 
 
-@dataclass(frozen=True)
+@frozen
 class FullModel(Stored):
     """Frequencies and compliance of the interface of the full model over its speeds."""
 
@@ -56,20 +56,20 @@ def solve(fom: Constants, states: Iterable[State], cholesky: Cholesky | None = N
     """
     cholesky, loads = cholesky or Cholesky(), fom.S.T.toarray()
     rows: list[tuple] = []
-    shapes: NDArray[np.float64] | None = None  # at rest
+    shapes: list[NDArray[np.float64]] = []  # at rest, once known
     for state in states:
         inverse = ShiftInvert(state.K, fom.M, cholesky)
         modes = inverse.modes(MODES)
         compliance = fom.S @ inverse.solve(loads)
         rows.append((state.speed, modes.omega, modes.residuals, compliance))
-        shapes = modes.Phi if shapes is None else shapes
+        shapes = shapes or [modes.Phi]
     speeds, omega, residuals, compliances = map(np.array, zip(*rows, strict=True))
     return FullModel(
         speeds=speeds,
         omega=omega,
         residuals=residuals,
         compliance=compliances,
-        shapes=shapes[:, :SHAPES].T.reshape(SHAPES, -1, 3),
+        shapes=shapes[0][:, :SHAPES].T.reshape(SHAPES, -1, 3),
         coordinates=fom.coordinates,
         provenance=fom.provenance,
     )

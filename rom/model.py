@@ -1,7 +1,6 @@
 """``rom-<directions>.nc``: the reduced model, the only file of a blade that the simulator needs."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +10,7 @@ from scipy.linalg import eigh
 from geometry.blade import RPM
 from geometry.hats import hats, middles
 from geometry.project import Provenance, UserError
-from geometry.stored import Stored, stored
+from geometry.stored import Stored, frozen, stored
 from geometry.tip import on_line
 from rom.polynomial import evaluate, interpolate
 
@@ -53,7 +52,7 @@ def require_speed(Omega: float, Omega_m: float) -> None:
         )
 
 
-@dataclass(frozen=True)
+@frozen
 class Rom(Stored):
     """M and K(Omega) in reduced coordinates (c, q); the interface DoFs c = S u come first.
 

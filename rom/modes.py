@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_matrix
 from scipy.sparse.linalg import LinearOperator, eigsh
 
-from fem.cholesky import Cholesky
+from fem.cholesky import Cholesky, petsc_matrix
 from geometry.project import UserError
 
 EIGEN_TOLERANCE = 1e-10  # asked of SLEPc, relative to the eigenvalue
@@ -56,7 +56,7 @@ class ShiftInvert:
             ``RESIDUAL_TOLERANCE``.
         """
         eps = SLEPc.EPS().create(PETSc.COMM_SELF)
-        eps.setOperators(self._factor().matrix, _petsc(self.M))
+        eps.setOperators(self._factor().matrix, petsc_matrix(self.M, self.M.data))
         eps.setProblemType(SLEPc.EPS.ProblemType.GHEP)
         eps.setWhichEigenpairs(SLEPc.EPS.Which.TARGET_MAGNITUDE)
         eps.setTarget(0.0)
@@ -144,9 +144,3 @@ class ShiftInvert:
                 f"above {RESIDUAL_TOLERANCE:.0e}"
             )
         return Modes(np.sqrt(values), Phi, residuals)
-
-
-def _petsc(A: csr_matrix) -> PETSc.Mat:
-    mat = PETSc.Mat().createAIJ(A.shape, csr=(A.indptr, A.indices, A.data), comm=PETSc.COMM_SELF)
-    mat.setOption(PETSc.Mat.Option.SPD, True)
-    return mat

@@ -21,9 +21,12 @@ def interpolate(K: NDArray[np.float64], speeds: NDArray[np.float64]) -> NDArray[
     Omega_m = speeds[-1]
     powers = np.arange(len(speeds))
     unit = np.linalg.inv(np.vander((speeds / Omega_m) ** 2, increasing=True))
-    return np.tensordot(unit / Omega_m ** (2.0 * powers)[:, None], K, axes=1)
+    return np.asarray(np.tensordot(unit / Omega_m ** (2.0 * powers)[:, None], K, axes=1), float)
 
 
 def evaluate(coefficients: NDArray[np.float64], Omega: float) -> NDArray[np.float64]:
     """Value at Omega (rad/s) from ``coefficients`` (powers, ...)."""
-    return sum(Omega ** (2 * p) * c for p, c in enumerate(coefficients))
+    return sum(
+        (Omega ** (2 * p) * c for p, c in enumerate(coefficients)),
+        start=np.zeros(np.shape(coefficients)[1:]),
+    )

@@ -1,18 +1,16 @@
 """``basis-<directions>.h5``: displacements of the full blade from reduced ones, Eq. (5)."""
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
 from fem.matrices import Matrices
 from geometry.project import Provenance
-from geometry.stored import Stored, stored
+from geometry.stored import Stored, frozen, stored
 from rom.model import CODE, RomError, require_speed
 from rom.polynomial import evaluate, interpolate
 
 
-@dataclass(frozen=True)
+@frozen
 class Basis(Stored):
     """Basis T and static deflection: displacements of the free DoFs from reduced coordinates.
 

@@ -268,9 +268,9 @@ def test_where_modified_newton_does_not_converge_newton_does(foam, monkeypatch):
     found.clear()
     modified, iterate = [], prestress._Equilibria._modified_newton
 
-    def spy(path, load):
+    def spy(path, cholesky, load):
         modified.append(float(path.Omega.value))
-        return iterate(path, load)
+        return iterate(path, cholesky, load)
 
     monkeypatch.setattr(prestress._Equilibria, "_modified_newton", spy)
     _, after_rest = nonlinear_states(foam, np.array([0.0, 30.0]), Cholesky())
