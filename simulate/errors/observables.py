@@ -145,12 +145,11 @@ def numbers(run: Run, k: int | None = None) -> Numbers:
 
 
 def _forces(run: Run) -> Numbers:
-    outcome = run.outcome
-    found = {
+    outcome, known = run.outcome, run.scene.no_torque is None
+    torque = torque_of_rounds(run.scene, run.rom, outcome) if known else None
+    return {
         "force_peak": float(np.nanmax(outcome.force_peak)),
         "force_mean": float(mean_force(outcome.force_mean)),
         "force_tangential_mean": float(mean_force(outcome.force_tangential_mean)),
+        **({} if torque is None else {"torque": float(np.nanmean(torque))}),
     }
-    if run.scene.no_torque is None:
-        found["torque"] = float(np.nanmean(torque_of_rounds(run.scene, run.rom, outcome)))
-    return found

@@ -3,7 +3,7 @@
 from collections import namedtuple
 from functools import cache
 from types import FunctionType
-from typing import Any, ClassVar, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 import numpy as np
 from pydantic import Field
@@ -12,6 +12,9 @@ from geometry.project import Settings
 
 STRAINS = np.geomspace(1e-12, 1.0, 257)  # at which the slope of a law is sampled
 PROBE = 1e-3  # strain at which a liner with any strength bears
+
+Unit = Annotated[float, Field(gt=0, le=1e15, description="Unit of the law's moduli (Pa)")]
+Modulus = Annotated[float, Field(gt=0, le=1e9, description="Young's modulus (in unit_Pa)")]
 
 
 @cache
@@ -108,8 +111,8 @@ class Unloading(Law):
     """Base of the laws of this project that unload along ``E``; moduli are in ``unit_Pa``."""
 
     kind: str
-    E: float = Field(gt=0, le=1e9, description="Young's modulus (in unit_Pa)")
-    unit_Pa: float = Field(gt=0, le=1e15, description="Unit of the law's moduli (Pa)")
+    E: Modulus
+    unit_Pa: Unit
 
     @property
     def parameters(self) -> NamedTuple:
