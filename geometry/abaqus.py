@@ -95,11 +95,11 @@ def mesh_of(cards: list[Card]) -> FileMesh:
     nodes = _nodes(cards)
     elements = _elements(cards, nodes)
     element_sets = _sets(cards, "ELSET", "ELEMENT", elements, {})
-    of_elements = {
+    element_nodes = {
         name: [node for i in numbers for node in elements[i][1]]
         for name, numbers in element_sets.items()
     }
-    node_sets = _sets(cards, "NSET", "NODE", nodes, of_elements)
+    node_sets = _sets(cards, "NSET", "NODE", nodes, element_nodes)
     faces = {name: _shells(numbers, elements) for name, numbers in element_sets.items()}
     for card in (card for card in cards if card.keyword == "SURFACE"):
         if card.options.get("TYPE") == "NODE":
@@ -110,13 +110,15 @@ def mesh_of(cards: list[Card]) -> FileMesh:
     row = {number: i for i, number in enumerate(nodes)}
     rows = np.vectorize(row.__getitem__, otypes=[int])
     kinds = sorted({kind for kind, _ in elements.values() if SOLID.match(kind)})
-    of_kinds = {kind: [i for i, (of, _) in elements.items() if of == kind] for kind in kinds}
+    numbers_by_kind = {
+        kind: [i for i, (its_kind, _) in elements.items() if its_kind == kind] for kind in kinds
+    }
     return as_tetrahedra(
         np.array(list(nodes.values()), dtype=float),
         np.array(list(nodes)),
         [
-            Solids(kind, rows([elements[i][1] for i in of]), np.array(of))
-            for kind, of in of_kinds.items()
+            Solids(kind, rows([elements[i][1] for i in numbers]), np.array(numbers))
+            for kind, numbers in numbers_by_kind.items()
         ],
         {name: rows(numbers) for name, numbers in node_sets.items()},
         {name: [[row[i] for i in face] for face in corners] for name, corners in faces.items()},
@@ -145,13 +147,13 @@ def _elements(cards: list[Card], nodes: Collection[int]) -> _Elements:
     """Kind and nodes of each element."""
     elements: _Elements = {}
     for card in (card for card in cards if card.keyword == "ELEMENT"):
-        for number_, *of in _numbering(card):
-            if unknown := [i for i in of if i not in nodes]:
+        for number_, *its_nodes in _numbering(card):
+            if unknown := [i for i in its_nodes if i not in nodes]:
                 raise MeshError(
                     f"element {number_} names node {unknown[0]}, which is not defined: is the file "
                     "cut short?"
                 )
-            element = card.options["TYPE"], of
+            element = card.options["TYPE"], its_nodes
             if elements.setdefault(number_, element) != element:
                 raise MeshError(
                     f"element {number_} is defined twice, with different nodes: number the "
@@ -167,15 +169,15 @@ def _cards(path: Path) -> list[Card]:
     """
     cards = [Card("", {}, 0)]
     lines = enumerate(map(str.strip, read_text(path, most=None, errors="replace").splitlines()), 1)
-    of_cards = ((at, line) for at, line in lines if line and not line.startswith("**"))
-    for (_, before), (at, line) in pairwise([(0, ""), *of_cards]):
+    read = ((place, line) for place, line in lines if line and not line.startswith("**"))
+    for (_, before), (place, line) in pairwise([(0, ""), *read]):
         if line.startswith("*"):
             keyword, _, options = line.lstrip("*").partition(",")
-            cards.append(Card(keyword.strip().upper(), _options(options), at))
+            cards.append(Card(keyword.strip().upper(), _options(options), place))
         elif before.endswith(",") and not cards[-1].rows and OPTION.match(line):
             cards[-1].options |= _options(line)
         else:
-            cards[-1].rows.append((at, [value.strip() for value in line.split(",")]))
+            cards[-1].rows.append((place, [value.strip() for value in line.split(",")]))
     return cards
 
 
@@ -225,13 +227,13 @@ def _numbering(card: Card) -> list[list[int]]:
     kind = card.option("TYPE")
     if LINE.match(kind):  # one row each
         return [[_whole(value, line) for value in row if value] for line, row in card.rows]
-    known = PLANE.match(kind) or SOLID.match(kind)
-    if not known:
+    match = PLANE.match(kind) or SOLID.match(kind)
+    if not match:
         raise MeshError(
             f"holds elements {kind}: read are tetrahedra, bricks, wedges and pyramids",
             line=card.line,
         )
-    length = int(known[1]) + 1
+    length = int(match[1]) + 1
     read: list[list[int]] = []
     for line, cells in card.rows:
         if not read or len(read[-1]) == length:  # else the row continues an element
@@ -253,24 +255,24 @@ def _numbering(card: Card) -> list[list[int]]:
 
 
 def _sets(
-    cards: list[Card], keyword: str, definition: str, known: Collection[int], others: _Sets
+    cards: list[Card], keyword: str, definition: str, defined: Collection[int], others: _Sets
 ) -> _Sets:
     """Numbers in each set; a later card of the same name adds to it.
 
-    ``known``: all that are defined; ``others``: sets of elements, by their nodes.
+    ``defined``: numbers of all nodes or elements; ``others``: sets of elements, by their nodes.
     """
     sets: _Sets = {}
     instances: dict[str, str | None] = {}
-    of_sets = (card for card in cards if card.keyword in (keyword, definition))
-    for card in (card for card in of_sets if card.options.get(keyword)):
+    cards_of_sets = (card for card in cards if card.keyword in (keyword, definition))
+    for card in (card for card in cards_of_sets if card.options.get(keyword)):
         if card.keyword == "NODE":
             numbers = [_whole(row[0], line) for line, row in card.rows]
         elif card.keyword == "ELEMENT":
             numbers = [number for number, *_ in _numbering(card)]
         elif keyword == "NSET" and "ELSET" in card.options:
-            numbers = _numbers(card.options["ELSET"], others, card.line, known)
+            numbers = _numbers(card.options["ELSET"], others, card.line, defined)
         else:
-            numbers = _members(card, sets, known)
+            numbers = _members(card, sets, defined)
         name, instance = card.options[keyword], card.options.get("INSTANCE")
         if instances.setdefault(name, instance) != instance:  # that of the assembly is meant
             sets[name], instances[name] = [], instance
@@ -278,39 +280,39 @@ def _sets(
     return sets
 
 
-def _members(card: Card, sets: _Sets, known: Collection[int]) -> list[int]:
+def _members(card: Card, sets: _Sets, defined: Collection[int]) -> list[int]:
     """Numbers that the rows of a set give, by themselves, as ranges or as other sets."""
     if "GENERATE" in card.options:
-        return [i for line, row in card.rows for i in _range(line, row, known)]
+        return [i for line, row in card.rows for i in _range(line, row, defined)]
     return [
         i
         for line, row in card.rows
         for value in filter(None, row)
-        for i in _numbers(value, sets, line, known)
+        for i in _numbers(value, sets, line, defined)
     ]
 
 
-def _range(line: int, row: list[str], known: Collection[int]) -> list[int]:
+def _range(line: int, row: list[str], defined: Collection[int]) -> list[int]:
     """Numbers of a row of a generated set: first, last, and step; some may not be defined."""
     values = [_whole(value, line) for value in row if value]
     if len(values) < 2 or 0 in values[2:]:
         raise MeshError("a generated set needs first, last and step", line=line)
     first, last, *by = values[:3]
     given = range(first, last + 1, *by)
-    numbers = [i for i in min(given, known, key=len) if i in given and i in known]
+    numbers = [i for i in min(given, defined, key=len) if i in given and i in defined]
     if not numbers:
         raise MeshError(f"none of {first} to {last} is defined: correct the set", line=line)
     return numbers
 
 
-def _numbers(value: str, sets: _Sets, line: int, known: Collection[int]) -> list[int]:
+def _numbers(value: str, sets: _Sets, line: int, defined: Collection[int]) -> list[int]:
     """A number, or those of an earlier set; an instance name before it is ignored."""
     value = value.rpartition(".")[2].strip('"').upper()
     if not value.isdigit():
         if value not in sets:
             raise MeshError(f"{shown(value)}: no set of this name stands before", line=line)
         return sets[value]
-    if (number_ := _whole(value, line)) not in known:
+    if (number_ := _whole(value, line)) not in defined:
         raise MeshError(
             f"a set names {value}, which is not defined: is the file cut short?", line=line
         )

@@ -33,8 +33,12 @@ COLLAPSED = {
 TEN = "tetra", [*range(10)]
 OTHER, MOST_NODES = "cells of another kind", 20
 ABSENT = -1  # row of a middle node that is not there
-LABELS = {"EX": "young_modulus", "PRXY": "poisson_ratio", "NUXY": "poisson_ratio"}
-LABELS |= {"DENS": "density"}
+LABELS = {
+    "EX": "young_modulus",
+    "PRXY": "poisson_ratio",
+    "NUXY": "poisson_ratio",
+    "DENS": "density",
+}
 EXPORT = "export it anew with `CDWRITE,DB`"
 
 
@@ -83,16 +87,16 @@ def read_archive(path: Path) -> FileMesh:
 def _declared(lines: list[str]) -> tuple[int | None, int | None]:
     """Numbers of nodes and of elements that the blocks declare; None where they do not."""
     heads = [line.upper().replace(" ", "").split(",") for line in lines if line[:1] in "NnEe"]
-    of_nodes = [head for head in heads if head[0] == "NBLOCK"]
-    of_elements = [head for head in heads if head[0] == "EBLOCK" and "SOLID" in head]
-    if not of_nodes or not of_elements:
-        missing = "EBLOCK of SOLID" if of_nodes else "NBLOCK"
+    node_blocks = [head for head in heads if head[0] == "NBLOCK"]
+    element_blocks = [head for head in heads if head[0] == "EBLOCK" and "SOLID" in head]
+    if not node_blocks or not element_blocks:
+        missing = "EBLOCK of SOLID" if node_blocks else "NBLOCK"
         raise MeshError(f"holds no {missing}, its nodes and elements in blocks: {EXPORT}")
-    if len(of_nodes) > 1:
-        raise MeshError(f"holds {len(of_nodes)} NBLOCK, allowed one: {EXPORT}")
+    if len(node_blocks) > 1:
+        raise MeshError(f"holds {len(node_blocks)} NBLOCK, allowed one: {EXPORT}")
     _require_numbers(lines)
-    counts = [_count(head) for head in of_elements]
-    return _count(of_nodes[0]), None if None in counts else sum(counts)
+    counts = [_count(head) for head in element_blocks]
+    return _count(node_blocks[0]), None if None in counts else sum(counts)
 
 
 def _count(head: list[str]) -> int | None:
@@ -139,8 +143,8 @@ def _sorted(archive: Archive, row: NDArray) -> tuple[list[_Element], dict[int, l
 def _rows(numbers: NDArray, row: NDArray, absent: int | None = None) -> NDArray:
     """Rows of nodes; -1 for ``absent``, which stands for a middle node that is not there."""
     rows = row[np.clip(numbers, 0, len(row) - 1)]
-    known = (rows >= 0) & (numbers > 0) & (numbers < len(row))
-    if np.any(lost := ~known & (numbers != absent)):
+    exists = (rows >= 0) & (numbers > 0) & (numbers < len(row))
+    if np.any(lost := ~exists & (numbers != absent)):
         raise MeshError(
             f"an element or component has node {numbers[lost][0]}, which is not there: {EXPORT}"
         )
@@ -154,24 +158,28 @@ def _solid(values: NDArray, nodes: NDArray, category: int) -> _Element:
     kind, places = COLLAPSED.get(corners, (OTHER, [])) if brick else TEN
     if len(nodes) == (8 if brick else 4):  # of first order
         places = places[:corners]
-    own = np.append(nodes, np.full(MOST_NODES, ABSENT))[places]
-    if len(np.unique(own[:corners])) < corners:
-        kind, own = OTHER, own[:0]
-    return _Element(int(values[NUMBER]), int(values[MATERIAL]), kind, own)
+    used = np.append(nodes, np.full(MOST_NODES, ABSENT))[places]
+    if len(np.unique(used[:corners])) < corners:
+        kind, used = OTHER, used[:0]
+    return _Element(int(values[NUMBER]), int(values[MATERIAL]), kind, used)
 
 
 def _solids(elements: list[_Element]) -> list[Solids]:
     """Elements by kind."""
-    if lacking := [of for of in elements if ABSENT in of.nodes]:
+    if lacking := [element for element in elements if ABSENT in element.nodes]:
         raise MeshError(
             f"{len(lacking)} of {len(elements)} cells lack middle nodes, among them element "
             f"{lacking[0].number}: keep the middle nodes of all"
         )
     by_kind: dict[tuple[str, int], list[_Element]] = {}
-    for of in elements:
-        by_kind.setdefault((of.kind, len(of.nodes)), []).append(of)
+    for element in elements:
+        by_kind.setdefault((element.kind, len(element.nodes)), []).append(element)
     return [
-        Solids(kind, np.array([of.nodes for of in same]), np.array([of.number for of in same]))
+        Solids(
+            kind,
+            np.array([element.nodes for element in same]),
+            np.array([element.number for element in same]),
+        )
         for (kind, _), same in sorted(by_kind.items())
     ]
 
@@ -182,7 +190,7 @@ def _materials(lines: list[str], used: set[int]) -> tuple[FileMaterial, ...]:
     for label, number, value in _properties(lines):
         if number in used and label in LABELS:
             values[number].setdefault(LABELS[label], value)
-    return tuple(FileMaterial(str(number), **found) for number, found in values.items())
+    return tuple(FileMaterial(str(number), **constants) for number, constants in values.items())
 
 
 def _properties(lines: list[str]) -> Iterator[tuple[str, int, float]]:
@@ -193,6 +201,6 @@ def _properties(lines: list[str]) -> Iterator[tuple[str, int, float]]:
             fields = fields[2:]  # without revision and number of values
         if command not in ("MP", "MPDATA") or len(fields) < 3:
             continue
-        at = 3 if command == "MPDATA" else 2  # behind the place of the first value
+        first = 3 if command == "MPDATA" else 2  # behind the place of the first value
         with suppress(ValueError, IndexError):
-            yield fields[0], int(fields[1]), float(fields[at])
+            yield fields[0], int(fields[1]), float(fields[first])

@@ -9,6 +9,7 @@ from pydantic import Field
 from geometry.project import Settings, SettingsError, SettingsFile, checked, one_of
 
 RPM = 30 / pi  # of 1 rad/s
+RPM_PER_HZ = 60.0
 Length = Annotated[float, Field(gt=0, le=1e4)]
 MOST_THICKNESS = 0.4  # of the chord; blades of compressors have up to 0.15, of turbines 0.3
 MOST_TIP_SPEED = 1000.0  # m/s of the tip; the fastest titanium blades reach about 600

@@ -64,7 +64,7 @@ class StepFile:
     @property
     def described(self) -> str:
         """Its unit and the box of the corners of its faces, in that unit and the file's axes."""
-        corners = np.concatenate([of for _, of in self.faces()])
+        corners = np.concatenate([points for _, points in self.faces()])
         return f"unit {' and '.join(sorted(self.units)) or 'not declared'}; {box(corners)}"
 
     def faces(self) -> list[tuple[str, NDArray[np.float64]]]:
@@ -177,10 +177,10 @@ def _check_manifold(cad: Cad, solid: int) -> None:
     for edge, count in edges.items():
         if count != 2 and gmsh.model.occ.getMass(1, edge) > ROUND_OFF:  # a pole has no length
             middle = sampled(edge).mean(axis=0) / cad.metres
-            at = ", ".join(f"{x:.4g}" for x in np.round(middle, 9))
+            place = ", ".join(f"{x:.4g}" for x in np.round(middle, 9))
             raise MeshError(
                 f"the solid is {'open' if count < 2 else 'non-manifold'}: {count} "
-                f"face(s) meet in the edge about ({at}) {cad.unit}; repair it in the CAD"
+                f"face(s) meet in the edge about ({place}) {cad.unit}; repair it in the CAD"
             )
     volume = gmsh.model.occ.getMass(3, solid)
     if volume <= 0:
@@ -234,9 +234,9 @@ def _find(cad: Cad, end: str, solid: int, groups: dict[str, list[int]]) -> tuple
         chosen = within_radius(f"cad.{end}", face.radius_mm, r, ROUND_OFF)
         return tuple(compress(faces, chosen))
     if face.group not in groups:
-        known = ", ".join(sorted(groups)) or "none; give radius_mm"
+        names = ", ".join(sorted(groups)) or "none; give radius_mm"
         raise MeshError(
-            f"no face has this name; names: {known}",
+            f"no face has this name; names: {names}",
             key=f"cad.{end}.group",
             value=face.group,
             allowed=sorted(groups),

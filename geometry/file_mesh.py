@@ -86,8 +86,12 @@ class FileMesh:
         """Its cells, box and groups, in the unit and the axes of the file."""
         used = self.without_unused()
         groups = [
-            *(f"{name} ({len(of)} nodes)" for name, of in used.node_groups.items()),
-            *(f"{name} ({len(of)} faces)" for name, of in used.face_groups.items() if len(of)),
+            *(f"{name} ({len(group)} nodes)" for name, group in used.node_groups.items()),
+            *(
+                f"{name} ({len(group)} faces)"
+                for name, group in used.face_groups.items()
+                if len(group)
+            ),
         ]
         return (
             f"{self.made or f'{len(used.cells)} tetrahedra on {len(used.points)} nodes'}; "
@@ -136,22 +140,22 @@ def as_tetrahedra(
         When there are none, some of other kinds, or of first and of second order; as ``split``.
     """
     blocks = _blocks(solids)
-    found = split(points, blocks)
+    tetrahedra = split(points, blocks)
     made = ""
     if any(block.corners.shape[1] != 4 for block in blocks):
         given = len(np.unique(np.concatenate([block.nodes.ravel() for block in blocks])))
         made = (
-            f"{_held(solids)} on {given} nodes, split into {len(found.cells)} ten-node tetrahedra "
-            f"on {len(np.unique(found.cells))} nodes"
+            f"{_held(solids)} on {given} nodes, split into {len(tetrahedra.cells)} ten-node "
+            f"tetrahedra on {len(np.unique(tetrahedra.cells))} nodes"
         )
     return FileMesh(
-        points=found.points,
-        cells=found.cells,
-        numbers=found.numbers,
+        points=tetrahedra.points,
+        cells=tetrahedra.cells,
+        numbers=tetrahedra.numbers,
         node_numbers=node_numbers,
-        weights=found.weights,
-        node_groups={name: found.with_new(nodes) for name, nodes in node_groups.items()},
-        face_groups={name: triangles_of(of) for name, of in faces.items()},
+        weights=tetrahedra.weights,
+        node_groups={name: tetrahedra.with_new(nodes) for name, nodes in node_groups.items()},
+        face_groups={name: triangles_of(corners) for name, corners in faces.items()},
         materials=materials,
         first_order=not blocks[0].second_order,
         made=made,
@@ -159,14 +163,14 @@ def as_tetrahedra(
 
 
 def _blocks(solids: Sequence[Solids]) -> list[Block]:
-    if not any(len(of.nodes) for of in solids):
+    if not any(len(cells.nodes) for cells in solids):
         raise MeshError("holds no tetrahedra, bricks, wedges or pyramids")
-    if other := [of for of in solids if of.nodes.shape[1] not in NODES]:
+    if other := [cells for cells in solids if cells.nodes.shape[1] not in NODES]:
         raise MeshError(
             f"holds {_held(other)}: read are tetrahedra, bricks, wedges and pyramids of first or "
             "second order"
         )
-    blocks = [Block(of.nodes, of.numbers) for of in solids if len(of.nodes)]
+    blocks = [Block(cells.nodes, cells.numbers) for cells in solids if len(cells.nodes)]
     if len({block.second_order for block in blocks}) > 1:
         raise MeshError(f"mixes cells of first and second order, {_held(solids)}: export one order")
     return blocks
@@ -175,8 +179,8 @@ def _blocks(solids: Sequence[Solids]) -> list[Block]:
 def _held(solids: Sequence[Solids]) -> str:
     """How many cells of each kind."""
     counts: Counter[str] = Counter()
-    for of in solids:
-        counts[of.kind] += len(of.nodes)
+    for cells in solids:
+        counts[cells.kind] += len(cells.nodes)
     return ", ".join(f"{count} {kind}" for kind, count in sorted(counts.items()) if count)
 
 

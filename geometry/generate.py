@@ -78,7 +78,7 @@ def _middles(cells: NDArray[np.uint64]) -> dict[int, tuple[int, int]]:
     """Middle nodes of the edges of ``cells``, with the ends of the edges."""
     nodes = [gmsh.model.mesh.getElement(cell)[1] for cell in cells]
     middles = [(GMSH[4 + edge], *ends) for edge, ends in enumerate(EDGES)]
-    return {of[middle]: (of[a], of[b]) for of in nodes for middle, a, b in middles}
+    return {ten[middle]: (ten[a], ten[b]) for ten in nodes for middle, a, b in middles}
 
 
 def _missed(solid: int, face: int) -> float:
@@ -96,15 +96,15 @@ def _missed(solid: int, face: int) -> float:
     uv = uv - period * np.round((uv - uv[:, :1]) / period)  # across a seam, where they jump
     points, weights = gmsh.model.mesh.getIntegrationPoints(FACET, RULE)
     xi = np.reshape(points, (-1, 3))[:, :2]
-    (flat, sides), (at, slopes) = _mapped(xi, x), _mapped(xi, uv)
-    at = (at - period * np.floor((at - low) / period)).ravel()
-    on_face = np.reshape(gmsh.model.getValue(2, face, at), flat.shape)
+    (flat, sides), (uv_points, slopes) = _mapped(xi, x), _mapped(xi, uv)
+    uv_points = (uv_points - period * np.floor((uv_points - low) / period)).ravel()
+    on_face = np.reshape(gmsh.model.getValue(2, face, uv_points), flat.shape)
     by_u, by_v = np.moveaxis(
-        np.reshape(gmsh.model.getDerivative(2, face, at), (*flat.shape[:2], 2, 3)), 2, 0
+        np.reshape(gmsh.model.getDerivative(2, face, uv_points), (*flat.shape[:2], 2, 3)), 2, 0
     )
     normal = np.cross(by_u, by_v) * np.linalg.det(slopes)[..., None]
-    own = np.cross(sides[..., 0], sides[..., 1])
-    missed = (_flux(on_face, normal) - _flux(flat, own)) @ weights
+    facet_normal = np.cross(sides[..., 0], sides[..., 1])
+    missed = (_flux(on_face, normal) - _flux(flat, facet_normal)) @ weights
     off, size = np.linalg.norm(on_face - flat, axis=2), np.linalg.norm(np.ptp(x, axis=1), axis=1)
     return _sign(solid, facets[0, :3]) * float(missed[off.max(axis=1) < size].sum())
 
@@ -140,7 +140,7 @@ def _mapped(xi: NDArray, nodes: NDArray) -> tuple[NDArray, NDArray]:
 def _sign(solid: int, corners: NDArray) -> int:
     """1 where a facet's ``corners`` are anticlockwise seen from outside the solid, else -1."""
     cells = np.reshape(gmsh.model.mesh.getElementsByType(CELL, solid)[1], (-1, 10))[:, :4]
-    (beside,) = cells[np.isin(cells, corners).sum(axis=1) == 3]
-    (opposite,) = np.setdiff1d(beside, corners)
+    (cell,) = cells[np.isin(cells, corners).sum(axis=1) == 3]
+    (opposite,) = np.setdiff1d(cell, corners)
     a, b, c, inner = (gmsh.model.mesh.getNode(node)[0] for node in (*corners, opposite))
     return 1 if np.cross(b - a, c - a) @ (inner - a) < 0 else -1

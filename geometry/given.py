@@ -138,11 +138,19 @@ class GivenMatrices(SettingsFile):
     @property
     def files(self) -> list[PurePath]:
         """All files, from the folder of the blade's YAML; ``K`` by ascending speed."""
-        of = self.full_matrices
-        matrices = [PurePath(file) for file in (of.M, *(of.K[speed] for speed in self.speeds))]
+        given = self.full_matrices
+        matrices = [
+            PurePath(file) for file in (given.M, *(given.K[speed] for speed in self.speeds))
+        ]
         # of CalculiX the names of the rows are in a file beside
         rows = [f.with_suffix(".dof") for f in matrices if f.suffix.lower() in (".sti", ".mas")]
-        others = (of.mesh_file and of.mesh_file.file, of.nodes, of.tip, of.S, of.camber)
+        others = (
+            given.mesh_file and given.mesh_file.file,
+            given.nodes,
+            given.tip,
+            given.S,
+            given.camber,
+        )
         return list(dict.fromkeys([*matrices, *rows, *(PurePath(file) for file in others if file)]))
 
     @property

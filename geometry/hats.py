@@ -11,12 +11,12 @@ def hats(xi: ArrayLike, nodes: NDArray[np.float64]) -> NDArray[np.float64]:
     chord are represented exactly there as well.
     """
     xi = np.atleast_1d(np.asarray(xi, dtype=float))
-    left = np.clip(np.searchsorted(nodes, xi, side="right") - 1, 0, len(nodes) - 2)
-    part = (xi - nodes[left]) / (nodes[left + 1] - nodes[left])
+    before = np.clip(np.searchsorted(nodes, xi, side="right") - 1, 0, len(nodes) - 2)
+    part = (xi - nodes[before]) / (nodes[before + 1] - nodes[before])
     values = np.zeros((len(xi), len(nodes)))
     places = np.arange(len(xi))
-    values[places, left] = 1 - part
-    values[places, left + 1] = part
+    values[places, before] = 1 - part
+    values[places, before + 1] = part
     return values
 
 

@@ -49,7 +49,7 @@ def import_mesh(source: MeshFile, path: str | Path) -> Shape:
     _check_bent(points, cells)
     surface = exterior(cells)
     _check_merged(points, cells, np.unique(surface))
-    _check_apart(points, cells)
+    _check_distances(points, cells)
     _add_cells(points, cells)
     _check_orientation(points[cells[:, :4]].mean(axis=1), mesh.numbers)
     root, tip = root_and_tip(source, mesh, points, surface)
@@ -57,7 +57,7 @@ def import_mesh(source: MeshFile, path: str | Path) -> Shape:
     return Shape(solid=1, root=(1,), tip=(2,), materials=mesh.materials)
 
 
-def _check_apart(points: NDArray, cells: NDArray) -> None:
+def _check_distances(points: NDArray, cells: NDArray) -> None:
     """Check that no corner is much farther from its neighbours than these are from theirs.
 
     A node that was moved out of the surface stretches its cells without turning them inside out.

@@ -8,14 +8,14 @@ from geometry.facets import nearest_facet, outward, shape_functions
 from geometry.hats import hat_nodes, middles
 from geometry.mesh_faces import outline_of
 from geometry.project import MeshError
-from geometry.tip import Tip, cartesian, on_line
+from geometry.tip import DevelopedTip, cartesian, on_line
 
 APART = 0.25  # least extent of the mesh nodes under a hat, over the distance of two hat nodes
 OFF_TIP = 1e-4  # m, largest distance of a listed point from the tip
 OUTSIDE = 0.02  # of a facet, largest distance of a point beyond the polygonal outline
 
 
-def tip_of(facets: NDArray, points: NDArray[np.float64]) -> Tip:
+def tip_of(facets: NDArray, points: NDArray[np.float64]) -> DevelopedTip:
     """Chord and outline of the tip's ``facets`` (k, 6) between ``points`` (n, 3), m.
 
     Raises
@@ -23,7 +23,7 @@ def tip_of(facets: NDArray, points: NDArray[np.float64]) -> Tip:
     MeshError
         When the facets are not connected, or their outline folds over its chord.
     """
-    return Tip.of(points[outline_of(outward(facets, points), points)])
+    return DevelopedTip.of(points[outline_of(outward(facets, points), points)])
 
 
 def require_patches(n: int, xi: NDArray[np.float64]) -> None:
@@ -53,7 +53,7 @@ def _carries(n: int, xi: NDArray) -> bool:
     return all(len(some) > 1 and np.ptp(some) >= APART * spacing for some in under)
 
 
-def places_of(interface: Interface, tip: Tip) -> NDArray[np.float64]:
+def places_of(interface: Interface, tip: DevelopedTip) -> NDArray[np.float64]:
     """Places (n, 3), m, of an interface of points, leading edge first."""
     if interface.points_mm:
         return np.array(interface.points_mm) * 1e-3
@@ -64,7 +64,10 @@ def places_of(interface: Interface, tip: Tip) -> NDArray[np.float64]:
 
 
 def on_facets(
-    points: NDArray[np.float64], facets: NDArray, tip: Tip, places: NDArray[np.float64]
+    points: NDArray[np.float64],
+    facets: NDArray,
+    tip: DevelopedTip,
+    places: NDArray[np.float64],
 ) -> tuple[NDArray, NDArray[np.float64], NDArray[np.float64]]:
     """Put ``places`` (n, 3), m, on the tip's ``facets`` (k, 6) between ``points``, m.
 

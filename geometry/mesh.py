@@ -22,7 +22,7 @@ from geometry.sections import loft_parameters, loft_table
 from geometry.shape import CELL, Shape, facets_of, jacobian_ratios, session
 from geometry.table import describe_cut, read_sections
 from geometry.tetrahedra import edge_lengths, exterior
-from geometry.tip import Tip, cartesian
+from geometry.tip import DevelopedTip, cartesian
 
 BEHIND = 0.1  # of the chord: tolerance for a tip with little stagger
 MOST_MISSED = 1e-2  # of the volume of the CAD, by the mesh; from VOLUME_TOLERANCE on it is warned
@@ -183,7 +183,7 @@ def _check_tip(blade: Blade, points: NDArray, facets: NDArray) -> None:
         require_patches(blade.interface.patches, tip.xi(points))
 
 
-def _check_width(tip: Tip) -> None:
+def _check_width(tip: DevelopedTip) -> None:
     """Check that the tip is that of a profile, not a shroud, which is as wide as it is long."""
     if tip.width() > MOST_THICKNESS:
         raise MeshError(
@@ -206,7 +206,7 @@ def _check_sense(line: NDArray, blade: Blade) -> None:
     raise MeshError(f"{fault}; check {file if blade.file else 'the stagger of the tip'}")
 
 
-def _check_camber(tip: Tip, blade: Blade) -> None:
+def _check_camber(tip: DevelopedTip, blade: Blade) -> None:
     """Check that the concave side is ahead in rotation, as the pressure side of a compressor.
 
     Only this check detects a frame with both downstream and rotation reversed. It is not needed for
@@ -284,9 +284,9 @@ def _show_materials(shape: Shape, blade: Blade) -> None:
 
 def _summary(mesh: FileMesh, cad_volume: float | None, blade: Blade) -> MeshSummary:
     """Numbers of the ``mesh`` as it was written, which gmsh still holds."""
-    own = volume()
+    mesh_volume = volume()
     faces = mesh.face_groups
-    of_root, of_tip, all_faces = (
+    root_area, tip_area, surface_area = (
         np.linalg.norm(normals(facets, mesh.points), axis=1).sum() / 2
         for facets in (faces["root"], faces["tip"], exterior(mesh.cells))
     )
@@ -294,13 +294,13 @@ def _summary(mesh: FileMesh, cad_volume: float | None, blade: Blade) -> MeshSumm
     return MeshSummary(
         nodes=len(mesh.points),
         cells=len(mesh.cells),
-        volume=own,
+        volume=mesh_volume,
         cad_volume=cad_volume,
         smallest_jacobian=float(jacobian_ratios().min()),
         span=float(radius[faces["tip"]].mean() - radius[faces["root"]].mean()),
         tip_radius=float(radius[faces["tip"]].max()),
-        mass=float(blade.material.density_kg_m3 * own),
-        thickness=float(2 * own / (all_faces - of_root - of_tip)),
+        mass=float(blade.material.density_kg_m3 * mesh_volume),
+        thickness=float(2 * mesh_volume / (surface_area - root_area - tip_area)),
         edge=float(edge_lengths(mesh.points, mesh.cells).mean()),
     )
 

@@ -150,6 +150,6 @@ def _matched(key: str, group: str, faces: NDArray, surface: NDArray) -> NDArray[
 def _why_not(group: set[str], mesh: FileMesh) -> str:
     names = sorted(mesh.groups)
     more = f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else ""
-    known = f"groups of faces or nodes: {', '.join(names[:MOST_NAMES]) or 'none'}{more}"
+    named = f"groups of faces or nodes: {', '.join(names[:MOST_NAMES]) or 'none'}{more}"
     fault = "holds no triangles" if group & mesh.face_groups.keys() else "no such group"
-    return f"{fault}; {known}"
+    return f"{fault}; {named}"

@@ -43,14 +43,14 @@ def _read_msh(path: Path) -> FileMesh:
     head, *lines = dict(sections)[b"Elements"].strip().splitlines()
     if ASCII.search(data):
         _require_all(mesh, len(lines) if len(head.split()) == 1 else int(head.split()[1]))
-    return _of_meshio(mesh)
+    return _from_meshio(mesh)
 
 
 def _read_vtu(path: Path) -> FileMesh:
     """A mesh of VTK; meshio leaves out cells of other kinds, and of all pieces but the last."""
     mesh = meshio.vtu.read(path)
     _require_all(mesh, sum(map(int, re.findall(rb"NumberOfCells=.(\d+)", path.read_bytes()))))
-    return _of_meshio(mesh)
+    return _from_meshio(mesh)
 
 
 def _require_all(mesh: meshio.Mesh, cells: int) -> None:
@@ -98,7 +98,7 @@ def read_mesh_file(path: str | Path) -> FileMesh:
     return mesh
 
 
-def _of_meshio(mesh: meshio.Mesh) -> FileMesh:
+def _from_meshio(mesh: meshio.Mesh) -> FileMesh:
     for block in mesh.cells:
         if not np.isin(block.data, np.arange(len(mesh.points))).all():
             raise MeshError(f"a {block.type} names a node that does not exist: is it cut short?")
@@ -108,8 +108,8 @@ def _of_meshio(mesh: meshio.Mesh) -> FileMesh:
         mesh.points,
         np.arange(len(mesh.points)) + 1,
         [
-            Solids(block.type, _nodes(block, mesh.points), of)
-            for block, of in zip(blocks, numbers, strict=True)
+            Solids(block.type, _nodes(block, mesh.points), cell_numbers)
+            for block, cell_numbers in zip(blocks, numbers, strict=True)
         ],
         node_groups={
             group: np.flatnonzero(mask)

@@ -14,8 +14,10 @@ from geometry.project import MeshError, read_text
 SOLIDS = {"CTETRA": (4, 10), "CPYRAM": (5, 13), "CPENTA": (6, 15), "CHEXA": (8, 20)}  # nodes
 UPRIGHT = {15: 6, 20: 8}  # their first middle node; those of upright edges stand before the upper
 SOLID = re.compile(r"C(TET|HEX|PEN|PYR)")  # others of this kind are refused
-SHELLS = dict.fromkeys(("CTRIA3", "CTRIA6", "CTRIAR"), "CTRIA3")  # by their corners
-SHELLS |= dict.fromkeys(("CQUAD4", "CQUAD8", "CQUADR"), "CQUAD4")
+SHELLS = {  # by their corners
+    **dict.fromkeys(("CTRIA3", "CTRIA6", "CTRIAR"), "CTRIA3"),
+    **dict.fromkeys(("CQUAD4", "CQUAD8", "CQUADR"), "CQUAD4"),
+}
 END = ("ENDDATA", "END DATA", "END BULK")
 EXPONENT = re.compile(r"(?<=[\d.])(?=[-+])")  # without its letter: 1.5-3 is 1.5E-3
 
@@ -67,18 +69,18 @@ def _cards(path: Path) -> list[tuple[int, str, list[str]]]:
     """Line, keyword and fields of each card to the end of the deck, other sections included."""
     cards: list[tuple[int, str, list[str]]] = []
     large = False
-    for at, given in enumerate(read_text(path, most=None, errors="replace").splitlines(), 1):
+    for number, given in enumerate(read_text(path, most=None, errors="replace").splitlines(), 1):
         line = given.partition("$")[0].expandtabs(8).upper()
         large = "*" in line[:8] or (large and not line[:8].strip())  # blanks go on as before
         keyword, *fields = _fields(line, *((4, 16) if large else (8, 8)))
         if line.lstrip().startswith(END):
             return cards
         if line.lstrip().startswith("INCLUDE"):
-            raise MeshError(INCLUDES.format("INCLUDE"), line=at)
+            raise MeshError(INCLUDES.format("INCLUDE"), line=number)
         if cards and keyword[:1] in ("", "+", "*"):  # continues the card
             cards[-1][2].extend(fields)
         else:
-            cards.append((at, keyword.rstrip("*"), fields))
+            cards.append((number, keyword.rstrip("*"), fields))
     raise MeshError("has no ENDDATA: is the file cut short? If it is whole, end it with ENDDATA")
 
 

@@ -59,21 +59,21 @@ def check_line(names: list[str], edges: NDArray[np.float64], radii: NDArray[np.f
     MeshError
         When one does not; the message names the section without which the others would.
     """
-    beside = _beside(edges, radii)
-    if beside <= BESIDE:
+    off = _offset(edges, radii)
+    if off <= BESIDE:
         return
     kept = [np.delete(np.arange(len(names)), i) for i in range(len(names))]
-    without = [_beside(edges[rest], radii[rest]) for rest in kept]
+    without = [_offset(edges[rest], radii[rest]) for rest in kept]
     alone = len(names) > 3 and min(without) <= BESIDE
     what = names[int(np.argmin(without))] if alone else f"one of {names[0]} to {names[-1]}"
     raise MeshError(
-        f"an edge lies {100 * beside:.0f} % of the chord beside the line between its neighbours "
+        f"an edge lies {100 * off:.0f} % of the chord beside the line between its neighbours "
         f"(allowed {100 * BESIDE:.0f} %): is the section shifted, turned or scaled?",
         key=what,
     )
 
 
-def _beside(edges: NDArray, radii: NDArray) -> float:
+def _offset(edges: NDArray, radii: NDArray) -> float:
     """Largest distance of an edge from the line between its neighbours, over the chord."""
     if len(edges) < 3:
         return 0.0
@@ -103,9 +103,8 @@ def _is_spike(turns: NDArray) -> NDArray[np.bool_]:
     """Whether the outline turns at a point (n,), and back again at both neighbours."""
     size = np.linalg.norm(turns, axis=1)
     back = np.ones(len(turns), dtype=bool)
-    for beside in (1, -1):
-        other = np.roll(turns, beside, axis=0)
-        product = np.sum(turns * other, axis=1)
-        back &= product < -0.5 * size * np.linalg.norm(other, axis=1)
-        back &= np.linalg.norm(other, axis=1) > size / 4
+    for neighbour in (1, -1):
+        product = np.sum(turns * np.roll(turns, neighbour, axis=0), axis=1)
+        its_size = np.roll(size, neighbour)
+        back &= (product < -0.5 * size * its_size) & (its_size > size / 4)
     return back & (size > TURNED)

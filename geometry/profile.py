@@ -63,6 +63,7 @@ def profile_at(s: Sections, x: float) -> Profile:
     fraction = (x - s.hub_radius) / s.span
 
     def between(hub: float, tip: float) -> float:
+        """Value at ``x`` of a quantity with these values at hub and tip."""
         return hub + fraction * (tip - hub)
 
     chord = between(s.hub.chord_mm, s.tip.chord_mm) * 1e-3

@@ -69,6 +69,7 @@ def by_radius(tags: Iterable[int], dimension: int) -> list[int]:
     """Tags of faces or curves (``dimension``), sorted by the radius of their centre of mass."""
 
     def radius(tag: int) -> float:
+        """Distance of the centre of mass from the axis, m."""
         return float(np.hypot(*gmsh.model.occ.getCenterOfMass(dimension, tag)[:2]))
 
     return sorted(tags, key=radius)
@@ -77,8 +78,8 @@ def by_radius(tags: Iterable[int], dimension: int) -> list[int]:
 def sampled(curve: int) -> NDArray[np.float64]:
     """Points (SAMPLES, 3), m, along a curve from end to end."""
     (first,), (last,) = gmsh.model.getParametrizationBounds(1, curve)
-    at = np.linspace(first, last, SAMPLES)
-    return np.reshape(gmsh.model.getValue(1, curve, at), (-1, 3))
+    parameters = np.linspace(first, last, SAMPLES)
+    return np.reshape(gmsh.model.getValue(1, curve, parameters), (-1, 3))
 
 
 def radii(face: int) -> tuple[float, float]:
@@ -106,8 +107,8 @@ def jacobian_ratios() -> NDArray[np.float64]:
     """
     cells, _ = gmsh.model.mesh.getElementsByType(CELL)
     smallest, largest = (
-        np.array(gmsh.model.mesh.getElementQualities(cells, of))
-        for of in ("minDetJac", "maxDetJac")
+        np.array(gmsh.model.mesh.getElementQualities(cells, measure))
+        for measure in ("minDetJac", "maxDetJac")
     )
     with np.errstate(invalid="ignore"):
         return smallest / np.maximum(abs(smallest), abs(largest))

@@ -66,9 +66,19 @@ KINDS = {
     ),
 }
 # kind, and whether it has the middles of its edges, by the number of its nodes
-NODES = {4: ("tetra", False), 10: ("tetra", True), 5: ("pyramid", False), 13: ("pyramid", True)}
-NODES |= {14: ("pyramid", True), 6: ("wedge", False), 15: ("wedge", True), 18: ("wedge", True)}
-NODES |= {8: ("hexahedron", False), 20: ("hexahedron", True), 27: ("hexahedron", True)}
+NODES = {
+    4: ("tetra", False),
+    10: ("tetra", True),
+    5: ("pyramid", False),
+    13: ("pyramid", True),
+    14: ("pyramid", True),
+    6: ("wedge", False),
+    15: ("wedge", True),
+    18: ("wedge", True),
+    8: ("hexahedron", False),
+    20: ("hexahedron", True),
+    27: ("hexahedron", True),
+}
 OPPOSITE = np.array([6, 7, 4, 5, 2, 3, 0, 1])  # corners of a brick
 TURNED = [3, 4, 5, 0, 1, 2, 9, 10, 11, 6, 7, 8, 12, 13, 14]  # a wedge seen from its other end
 
@@ -102,7 +112,7 @@ class Block(NamedTuple):
 
     def faces(self, corners: int) -> NDArray:
         """Faces (m, faces, corners) with so many corners."""
-        faces = np.array([of for of in self.kind.faces if len(of) == corners], dtype=int)
+        faces = np.array([face for face in self.kind.faces if len(face) == corners], dtype=int)
         return self.corners[:, faces.reshape(-1, corners)]
 
 
@@ -141,8 +151,8 @@ class _Edges:
         count = self.weights.shape[0]
         self.know(ends, count + np.arange(len(ends)))
         n, k = nodes.shape
-        of_rows = np.tile(weights, n), nodes.ravel(), k * np.arange(n + 1)
-        sums = csr_matrix(of_rows, (n, count))
+        entries = np.tile(weights, n), nodes.ravel(), k * np.arange(n + 1)
+        sums = csr_matrix(entries, (n, count))
         self.weights = vstack([self.weights, sums @ self.weights], format="csr")
         self.parents = np.vstack([self.parents, parents])
 
@@ -158,13 +168,13 @@ class _Edges:
 
     def middles(self, ends: NDArray) -> NDArray:
         """Middle nodes (...) of edges with ``ends`` (..., 2)."""
-        known, asked = (
-            np.sort(of.reshape(-1, 2), axis=1) @ (self.weights.shape[0], 1)
-            for of in (self._ends, ends)
+        stored, asked = (
+            np.sort(pairs.reshape(-1, 2), axis=1) @ (self.weights.shape[0], 1)
+            for pairs in (self._ends, ends)
         )
-        order = np.argsort(known)
-        at = np.searchsorted(known, asked, sorter=order)
-        return self._middles[order[at]].reshape(ends.shape[:-1])
+        order = np.argsort(stored)
+        place = np.searchsorted(stored, asked, sorter=order)
+        return self._middles[order[place]].reshape(ends.shape[:-1])
 
 
 def upright(points: NDArray, nodes: NDArray) -> NDArray:
@@ -204,8 +214,8 @@ def split(points: NDArray, blocks: Sequence[Block]) -> Split:
         _cut_bricks(edges, blocks)
     cells = [_ten_nodes(block, edges) for block in blocks]
     numbers = [
-        np.repeat(block.numbers, len(of) // len(block.nodes))
-        for block, of in zip(blocks, cells, strict=True)
+        np.repeat(block.numbers, len(tetrahedra) // len(block.nodes))
+        for block, tetrahedra in zip(blocks, cells, strict=True)
     ]
     return Split(
         edges.weights @ points,
@@ -218,27 +228,31 @@ def split(points: NDArray, blocks: Sequence[Block]) -> Split:
 
 def _check_quadrilaterals(blocks: Sequence[Block]) -> None:
     """Check that no quadrilateral of a cell lies on triangles of others, which it would cut."""
-    of_triangle = _by_corners(blocks, 3)
-    if not of_triangle:
+    by_triangle = _by_corners(blocks, 3)
+    if not by_triangle:
         return
-    outside = {quad: of for quad, of in _by_corners(blocks, 4).items() if len(of) == 1}
+    outside = {
+        quad: its_cells for quad, its_cells in _by_corners(blocks, 4).items() if len(its_cells) == 1
+    }
     for quad, (cell,) in outside.items():
-        if met := [of for three in combinations(quad, 3) for of in of_triangle.get(three, ())]:
+        if crossed := [
+            neighbour for three in combinations(quad, 3) for neighbour in by_triangle.get(three, ())
+        ]:
             raise MeshError(
-                f"a quadrilateral of cell {cell} meets a triangle of cell {met[0]}: a brick or "
+                f"a quadrilateral of cell {cell} meets a triangle of cell {crossed[0]}: a brick or "
                 "wedge cannot stand on two tetrahedra; set a pyramid between them"
             )
 
 
 def _by_corners(blocks: Sequence[Block], corners: int) -> dict[tuple[int, ...], list[int]]:
     """Numbers of the cells at each face with so many corners, by these."""
-    found: dict[tuple[int, ...], list[int]] = {}
+    by_face: dict[tuple[int, ...], list[int]] = {}
     for block in blocks:
         faces = np.sort(block.faces(corners), axis=2)
-        for number, of_cell in zip(block.numbers.tolist(), faces.tolist(), strict=True):
-            for face in of_cell:
-                found.setdefault(tuple(face), []).append(number)
-    return found
+        for number, faces_of_cell in zip(block.numbers.tolist(), faces.tolist(), strict=True):
+            for face in faces_of_cell:
+                by_face.setdefault(tuple(face), []).append(number)
+    return by_face
 
 
 def _cut_quadrilaterals(edges: _Edges, blocks: Sequence[Block]) -> None:
@@ -269,7 +283,8 @@ def _from_first(faces: NDArray) -> NDArray:
 def triangles_of(faces: Sequence[Sequence[int]]) -> NDArray[np.int64]:
     """Triangles (m, 3) of faces given by three or four corners, these cut along their diagonal."""
     triangles, quads = (
-        np.array([of for of in faces if len(of) == k], dtype=int).reshape(-1, k) for k in (3, 4)
+        np.array([face for face in faces if len(face) == k], dtype=int).reshape(-1, k)
+        for k in (3, 4)
     )
     return np.vstack([triangles, _halves(quads)])
 

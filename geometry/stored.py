@@ -68,14 +68,14 @@ class Stored:
             When it cannot be written.
         """
         variables: dict[str, tuple] = {}
-        for f in _own(self):
+        for f in _stored_fields(self):
             variables |= _variables(f, getattr(self, f.name))
         attributes = {"format": FORMAT, "provenance": self.provenance.dump()}
         write(xr.Dataset(variables, coordinates, attributes), path)
 
     @classmethod
-    def load(cls, path: str | Path, of: Provenance | None = None) -> Self:
-        """Read NetCDF; ``of``: the provenance that it must have, where it has to be a certain one.
+    def load(cls, path: str | Path, expected: Provenance | None = None) -> Self:
+        """Read NetCDF; ``expected``: the only provenance that the file may have.
 
         Raises
         ------
@@ -86,14 +86,14 @@ class Stored:
         """
         with opened(path, cls.__name__) as (dataset, provenance):
             provenance.require_code(cls.code, path)
-            provenance.require(of or provenance, path)
+            provenance.require(expected or provenance, path)
             values = {
                 f.name: (_read_sparse if f.metadata["sparse"] else _read)(dataset, f)
-                for f in _own(cls)
+                for f in _stored_fields(cls)
             }
-            found = cls(**values, provenance=provenance)
-            found.require_possible()
-        return found
+            loaded = cls(**values, provenance=provenance)
+            loaded.require_possible()
+        return loaded
 
     def require_possible(self) -> None:
         """Check the further demands on the values.
@@ -152,9 +152,9 @@ def opened(
         yield dataset, Provenance.parse(dataset.attrs.get("provenance"), path)
 
 
-def _own(of: Any) -> list[Field]:
+def _stored_fields(owner: Any) -> list[Field]:
     """The ``stored`` fields of a class, or of an object of it."""
-    return [f for f in fields(of) if f.metadata]
+    return [f for f in fields(owner) if f.metadata]
 
 
 def _variables(f: Field, value: Any) -> dict[str, tuple]:
@@ -168,17 +168,17 @@ def _variables(f: Field, value: Any) -> dict[str, tuple]:
 
 def _read(dataset: xr.Dataset, f: Field) -> NDArray | float | tuple[str, ...]:
     """Value of a field that is not sparse."""
-    name, of = f.name, f.metadata
+    name, layout = f.name, f.metadata
     values = dataset[name].values
-    if dataset[name].dims != of["dims"]:
-        raise ValueError(f"{name}: dimensions {dataset[name].dims}, not {of['dims']}")
+    if dataset[name].dims != layout["dims"]:
+        raise ValueError(f"{name}: dimensions {dataset[name].dims}, not {layout['dims']}")
     if f.type == tuple[str, ...]:
         return tuple(map(str, values))
     if values.dtype != float:
         raise ValueError(f"{name}: of type {values.dtype}, not of floating point")
-    if not of["may_be_nan"] and not np.isfinite(values).all():
+    if not layout["may_be_nan"] and not np.isfinite(values).all():
         raise ValueError(f"{name}: not finite")
-    if of["symmetric"]:
+    if layout["symmetric"]:
         require_symmetric(name, values)
     return values if values.ndim else float(values)
 

@@ -59,7 +59,7 @@ def read_sections(table: SectionTable, path: str | Path) -> list[CutSection]:
     ]
     _check_order(cut)
     cut.sort(key=_radius)
-    _check_apart(cut)
+    _check_crossing(cut)
     edges = [(s.suction[[0, -1]] + s.pressure[[0, -1]]) / 2 for s in cut]
     check_line([s.name for s in cut], np.array(edges), np.array([_radius(s) for s in cut]))
     return cut
@@ -89,19 +89,20 @@ def _check_order(sections: list[CutSection]) -> None:
     rises = np.diff([_radius(section) for section in sections])
     up = np.sum(rises > 0) >= len(rises) / 2
     if np.any((rises > 0) != up):
-        at = int(np.argmax((rises > 0) != up))
+        first = int(np.argmax((rises > 0) != up))
         raise MeshError(
-            f"{sections[at + 1].name} lies {'inside' if up else 'outside'} {sections[at].name}, "
-            f"other than all before: give the sections in order, hub to tip, and check its radius"
+            f"{sections[first + 1].name} lies {'inside' if up else 'outside'} "
+            f"{sections[first].name}, other than all before: give the sections in order, hub to "
+            "tip, and check its radius"
         )
 
 
 def _read(path: str | Path) -> dict[str, NDArray[np.float64]]:
     """Outlines by name, in the file's unit and axes."""
     outlines: dict[str, list[list[float]]] = {}
-    (at, header), *rows = list(csv_rows(path)) or [(1, [])]
+    (number, header), *rows = list(csv_rows(path)) or [(1, [])]
     if header != HEADER:
-        raise MeshError(f"the header must be {','.join(HEADER)}", line=at)
+        raise MeshError(f"the header must be {','.join(HEADER)}", line=number)
     for line, (name, *values) in rows:
         if not name.isprintable():
             raise MeshError(f"section {shown(name)}: is no name", line=line)
@@ -170,9 +171,9 @@ def _at_stations(name: str, side: NDArray, stations: NDArray) -> NDArray:
         raise MeshError(f"a side has {len(side)} points; needs {FEWEST_POINTS // 4}", key=name)
     arc = np.concatenate([[0], np.cumsum(steps)])
     curve = Akima1DInterpolator(arc, side, method="makima")
-    at = np.linspace(0, arc[-1], DENSE)
+    samples = np.linspace(0, arc[-1], DENSE)
     chord = side[-1] - side[0]
-    along = (curve(at) - side[0]) @ chord / (chord @ chord)
+    along = (curve(samples) - side[0]) @ chord / (chord @ chord)
     between = (along > stations[0]) & (along < stations[-1])
     if np.any(np.diff(along[between]) <= 0):
         fold = along[between][np.diff(along[between]).argmin()]
@@ -181,7 +182,7 @@ def _at_stations(name: str, side: NDArray, stations: NDArray) -> NDArray:
             "outline in order",
             key=name,
         )
-    return curve(np.interp(stations, along, at))
+    return curve(np.interp(stations, along, samples))
 
 
 def _radii(section: CutSection) -> NDArray[np.float64]:
@@ -190,7 +191,7 @@ def _radii(section: CutSection) -> NDArray[np.float64]:
     return np.hypot(points[..., 0], points[..., 1])
 
 
-def _check_apart(sections: list[CutSection]) -> None:
+def _check_crossing(sections: list[CutSection]) -> None:
     for low, high in pairwise(sections):
         rise = (_radii(high) - _radii(low)).min(axis=0)
         if rise.min() < APART:

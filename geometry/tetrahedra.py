@@ -34,17 +34,17 @@ def exterior(cells: NDArray) -> NDArray[np.int64]:
         middle nodes, or a surface that is not manifold.
     """
     facets = cells[:, FACETS].reshape(-1, 6)
-    _, first, which, cells_of = np.unique(
+    _, first, which, sharing = np.unique(
         np.sort(facets[:, :3], axis=1),
         axis=0,
         return_index=True,
         return_inverse=True,
         return_counts=True,
     )
-    _check_shared(cells_of)
+    _check_shared(sharing)
     check_middles(np.sort(cells[:, EDGES].reshape(-1, 2), axis=1), cells[:, 4:].ravel())
     _check_connected(np.repeat(np.arange(len(cells)), 4), which.ravel())
-    outside = facets[first[cells_of == 1]]
+    outside = facets[first[sharing == 1]]
     _check_closed(outside)
     return outside
 
@@ -59,8 +59,8 @@ def neighbours(facets: NDArray) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Numbers (m,) of the two facets at each edge that exactly two of ``facets`` share."""
     _, edge, sharing = np.unique(_edges(facets), axis=0, return_inverse=True, return_counts=True)
     by_edge = np.argsort(edge.ravel(), kind="stable")
-    of_two = by_edge[sharing[edge.ravel()[by_edge]] == 2] // 3  # three edges a facet, in order
-    return of_two[::2], of_two[1::2]
+    pairs = by_edge[sharing[edge.ravel()[by_edge]] == 2] // 3  # three edges a facet, in order
+    return pairs[::2], pairs[1::2]
 
 
 def outlines(facets: NDArray) -> list[NDArray[np.int64]]:
@@ -95,18 +95,18 @@ def _edges(facets: NDArray) -> NDArray:
     return np.sort(facets[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
 
 
-def _pieces(member: NDArray, of: NDArray) -> NDArray:
-    """Number of the connected component of each member; members with the same ``of`` connect."""
+def _pieces(member: NDArray, shared: NDArray) -> NDArray:
+    """Number of the connected component of each member; those with the same ``shared`` connect."""
     n = int(member.max()) + 1
-    shape = (n + int(of.max()) + 1,) * 2
-    graph = coo_matrix((np.ones(len(member)), (member, n + of)), shape=shape)
+    shape = (n + int(shared.max()) + 1,) * 2
+    graph = coo_matrix((np.ones(len(member)), (member, n + shared)), shape=shape)
     return connected_components(graph, directed=False)[1][:n]
 
 
-def _check_shared(cells_of: NDArray) -> None:
-    if np.any(cells_of > 2):
+def _check_shared(sharing: NDArray) -> None:
+    if np.any(sharing > 2):
         raise MeshError(
-            f"{np.sum(cells_of > 2)} facets belong to more than two cells: remove cells that "
+            f"{np.sum(sharing > 2)} facets belong to more than two cells: remove cells that "
             f"overlap or stand twice"
         )
 
@@ -136,9 +136,9 @@ def _check_connected(cell: NDArray, facet: NDArray) -> None:
 
 def _check_closed(outside: NDArray) -> None:
     """Check that two facets meet at each edge of the surface; four where a solid touches itself."""
-    _, facets_of = np.unique(_edges(outside), axis=0, return_counts=True)
-    if np.any(facets_of != 2):
+    _, sharing = np.unique(_edges(outside), axis=0, return_counts=True)
+    if np.any(sharing != 2):
         raise MeshError(
-            f"the surface is not manifold: at {np.sum(facets_of != 2)} of its edges more than two "
+            f"the surface is not manifold: at {np.sum(sharing != 2)} of its edges more than two "
             f"facets meet; separate the cells that touch there along an edge only"
         )

@@ -22,7 +22,7 @@ TURNS = 6  # iterations of the chord's direction; the error falls by edge radius
 
 
 @dataclass(frozen=True)
-class Tip:
+class DevelopedTip:
     """Chord of the developed tip, and its outline."""
 
     outline: NDArray[np.float64]  # (m, 3): r, theta, z in m and rad, closed, in order
@@ -110,8 +110,8 @@ class Tip:
 
 def on_line(line: NDArray[np.float64], xi: ArrayLike) -> NDArray[np.float64]:
     """Points (n, 3), r, theta, z, at chord fractions ``xi`` of a camber ``line`` (places, 3)."""
-    at = np.linspace(0, 1, len(line))
-    return np.column_stack([np.interp(xi, at, column) for column in line.T])
+    stations = np.linspace(0, 1, len(line))
+    return np.column_stack([np.interp(xi, stations, column) for column in line.T])
 
 
 def cartesian(rtz: NDArray[np.float64]) -> NDArray[np.float64]:

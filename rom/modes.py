@@ -101,6 +101,7 @@ class ShiftInvert:
         """
 
         def held(b: NDArray[np.float64]) -> NDArray[np.float64]:
+            """K^-1 b - A C^-1 A^T b of a vector ``b`` (n,): displacements with S u = 0."""
             return self.solve(b.reshape(-1, 1))[:, 0] - Phi_R @ (A.T @ b.ravel())
 
         n = self.K.shape[0]

@@ -30,11 +30,11 @@ def argument(kind: Any, given: Any, readers: Readers | None = None) -> Any:
         return None
     kind = kinds[0]
     if isinstance(given, list):
-        (of_one,) = get_args(kind) or (Any,)
-        return [argument(of_one, one, readers) for one in given]
+        (kind_of_each,) = get_args(kind) or (Any,)
+        return [argument(kind_of_each, value, readers) for value in given]
     if isinstance(given, Mapping) and hasattr(kind, "model_validate"):
         return kind.model_validate(given)
     if str in kinds or not isinstance(given, str | Path):
         return given
-    (of_type,) = getattr(kind, "__metadata__", [getattr(kind, "load", read_json)])
-    return (readers or {}).get(kind, of_type)(given)
+    (reader,) = getattr(kind, "__metadata__", [getattr(kind, "load", read_json)])
+    return (readers or {}).get(kind, reader)(given)

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import xarray as xr
 
-from geometry.blade import Blade
+from geometry.blade import RPM_PER_HZ, Blade
 from geometry.given import read_blade
 from geometry.project import (
     Say,
@@ -36,8 +36,8 @@ from simulate.sweeps.dataset import load, require_rom
 from simulate.sweeps.peak import Peak
 from simulate.sweeps.peak_results import asked, at_peak, case_of, to_march
 from workflow import markdown
-from workflow.summary import RPM_PER_HZ, Column, known
-from workflow.usage import UsageError, read_usage
+from workflow.summary import Column, known_columns
+from workflow.usage import cpu_seconds
 
 FINER = sqrt(2)  # element size of the mesh over that of the finer one
 DEARER = 4.0  # matrices and modes on that mesh, 2.8 times the nodes
@@ -101,7 +101,9 @@ class Subject(NamedTuple):
         if name not in yaml_file.names("workflow/scenes"):
             raise SettingsError(
                 f"no workflow/scenes/{name}.yaml; of these there are results: "
-                + ", ".join(sorted(of.parent.name for of in Path("results").glob("*/*/sweep.nc"))),
+                + ", ".join(
+                    sorted(file.parent.name for file in Path("results").glob("*/*/sweep.nc"))
+                ),
                 key=name or "SCENE",
             )
         scene = Scene.load(f"workflow/scenes/{name}.yaml")
@@ -121,7 +123,7 @@ class Subject(NamedTuple):
             raise SettingsError(f"blade {scene.blade} is from elsewhere: it has no mesh", key=name)
         return cls(name, folder, to_march(runs), blade, rom, runs, asked(runs, rom))
 
-    def beside(self, other: Neighbour) -> list[Numbers]:
+    def at_peaks(self, other: Neighbour) -> list[Numbers]:
         """Numbers of a second run at each peak.
 
         Raises
@@ -133,112 +135,107 @@ class Subject(NamedTuple):
             model, along = _model(self, other), self.scene.speeds.over_f1 is not None
             other = other._replace(rom=lambda _: model, along=along)
         check_scene(other.scene(self.scene), other.rom(self.rom))
-        own = (case_of(self.runs, self.scene, self.rom, peak) for peak in self.peaks)
-        return [at_peak(of.beside(other), p.k) for of, p in zip(own, self.peaks, strict=True)]
+        cases = (case_of(self.runs, self.scene, self.rom, peak) for peak in self.peaks)
+        return [at_peak(case.beside(other), p.k) for case, p in zip(cases, self.peaks, strict=True)]
 
 
-def expected(of: Subject) -> float:
+def expected(subject: Subject) -> float:
     """Time that the check will take, s: its runs, and the models that it makes."""
     runs = sum(run.cost for run in (ITSELF, *CHANGES))
-    marches = cost(of.scene, of.rom, len(of.peaks)).seconds * runs
-    logs = [of.folder.parent / "logs" / f"{job.format(of.scene.directions)}.log" for job in JOBS]
-    seconds = [_seconds(log) for log in logs]
-    patches, mesh = sum(seconds[1:]), DEARER * sum(seconds) if of.blade.mesh else 0.0
-    return marches + (0.0 if of.blade.of_points else patches) + mesh
+    marches = cost(subject.scene, subject.rom, len(subject.peaks)).seconds * runs
+    logs = [
+        subject.folder.parent / "logs" / f"{job.format(subject.scene.directions)}.log"
+        for job in JOBS
+    ]
+    seconds = [cpu_seconds(log) for log in logs]
+    patches, mesh = sum(seconds[1:]), DEARER * sum(seconds) if subject.blade.mesh else 0.0
+    return marches + (0.0 if subject.blade.of_points else patches) + mesh
 
 
-def _seconds(log: Path) -> float:
-    """CPU time of a job, s; 0 where its log does not say it."""
-    try:
-        return read_usage(log)["seconds"]
-    except (OSError, UsageError):
-        return 0.0
-
-
-def checked(of: Subject, say: Say) -> Iterator[tuple[str, list[Numbers] | str]]:
-    """Each change with its numbers at the peaks, or why it is not possible; first the own ones."""
-    yield ITSELF.name, of.beside(ITSELF)
+def checked(subject: Subject, say: Say) -> Iterator[tuple[str, list[Numbers] | str]]:
+    """Each change with its numbers at the peaks, or why it is not possible; unchanged first."""
+    yield ITSELF.name, subject.at_peaks(ITSELF)
     for other in CHANGES:
         say(f"{other.name} ...")
         try:
-            yield other.name, of.beside(other)
+            yield other.name, subject.at_peaks(other)
         except UserError as error:
             yield other.name, str(error).splitlines()[0]
 
 
-def _model(of: Subject, changed: Neighbour) -> Rom:
+def _model(subject: Subject, changed: Neighbour) -> Rom:
     """The reduced model of the changed blade; its mesh is not kept."""
     from rom.reduce import reduce
     from workflow.jobs.full_model import assembled
 
-    if of.blade.of_points:
+    if subject.blade.of_points:
         raise SettingsError("basis paper: its interface has points, which stay")
-    if of.blade.mesh is None and changed.remeshed:
+    if subject.blade.mesh is None and changed.remeshed:
         raise SettingsError(
             "the mesh is a file: give a finer one as another blade", key="mesh_file"
         )
-    blade, source = changed.blade(of.blade), of.blade.file
-    name, source = of.scene.blade, source and Path("workflow/blades", source)
+    blade, source = changed.blade(subject.blade), subject.blade.file
+    name, source = subject.scene.blade, source and Path("workflow/blades", source)
     with TemporaryDirectory() as folder:
-        mesh = of.folder.parent / "blade.msh"
+        mesh = subject.folder.parent / "blade.msh"
         if changed.remeshed:
             from fem.at_rest import build_mesh_at_rest
 
             mesh = Path(folder, "blade.msh")
             build_mesh_at_rest(blade, mesh, source)
         fom = assembled(blade, name, mesh)
-        return reduce(fom, blade.basis, of.scene.directions)[0]
+        return reduce(fom, blade.basis, subject.scene.directions)[0]
 
 
-def table(of: Subject, found: Mapping[str, list[Numbers] | str]) -> str:
+def table(subject: Subject, results: Mapping[str, list[Numbers] | str]) -> str:
     """Markdown: for each peak a row for each change, with the change of each number in percent.
 
     Numbers that no peak has are left out.
     """
-    own = found[ITSELF.name]
-    columns = known(own)
+    unchanged = results[ITSELF.name]
+    columns = known_columns(unchanged)
     rows = [
-        [_where(of, peak), name, *_cells(columns, own[at], result)]
-        for at, peak in enumerate(of.peaks)
-        for name, numbers in found.items()
-        for result in [numbers if isinstance(numbers, str) else numbers[at]]
+        [_where(subject, peak), name, *_cells(columns, unchanged[number], result)]
+        for number, peak in enumerate(subject.peaks)
+        for name, numbers in results.items()
+        for result in [numbers if isinstance(numbers, str) else numbers[number]]
     ]
     return markdown.table(["peak", "changed", *(column.head for column in columns)], rows)
 
 
-def _where(of: Subject, peak: Peak) -> str:
-    rpm = f"{RPM_PER_HZ * of.rom.f1 * peak.Omega_c:.0f} rpm"
+def _where(subject: Subject, peak: Peak) -> str:
+    rpm = f"{RPM_PER_HZ * subject.rom.f1 * peak.Omega_c:.0f} rpm"
     return f"EO {peak.k}, {rpm}" if peak.k else rpm
 
 
-def _cells(columns: Sequence[Column], own: Numbers, result: Numbers | str) -> list[str]:
+def _cells(columns: Sequence[Column], unchanged: Numbers, result: Numbers | str) -> list[str]:
     """Numbers of the run itself; relative changes of another one, or its refusal."""
     if isinstance(result, str):
         return [result, *[""] * (len(columns) - 1)]
-    if result is own:
-        return [column.shown(own) for column in columns]
-    return [_changed(own, result, column.name) for column in columns]
+    if result is unchanged:
+        return [column.shown(unchanged) for column in columns]
+    return [_changed(unchanged, result, column.name) for column in columns]
 
 
-def _changed(own: Numbers, result: Numbers, name: str) -> str:
-    """How much a number has changed, over its own."""
+def _changed(unchanged: Numbers, result: Numbers, name: str) -> str:
+    """Relative change of a number from the unchanged run."""
     if not result:
         return "no result"
-    if not own.get(name) or name not in result:
+    if not unchanged.get(name) or name not in result:
         return "-"
-    return markdown.change(result[name] / own[name] - 1)
+    return markdown.change(result[name] / unchanged[name] - 1)
 
 
 def check(name: str, say: Say = print) -> str:
     """Check a scene: say its cost and progress; return the table, kept as ``check.md``."""
-    of, start = Subject.read(name), perf_counter()
+    subject, start = Subject.read(name), perf_counter()
     say(
-        f"{name}: {len(of.peaks)} speeds, {len(CHANGES)} changes: some "
-        f"{duration(expected(of))} on one core (Ctrl-C stops it, nothing is lost)"
+        f"{name}: {len(subject.peaks)} speeds, {len(CHANGES)} changes: some "
+        f"{duration(expected(subject))} on one core (Ctrl-C stops it, nothing is lost)"
     )
-    text = table(of, dict(checked(of, say)))
-    write_whole(f"# What scene {name} depends on\n\n{text}\n", of.folder / "check.md")
-    say(f"{duration(perf_counter() - start)}; {of.folder}/check.md")
+    text = table(subject, dict(checked(subject, say)))
+    write_whole(f"# What scene {name} depends on\n\n{text}\n", subject.folder / "check.md")
+    say(f"{duration(perf_counter() - start)}; {subject.folder}/check.md")
     return text
 
 

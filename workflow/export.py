@@ -37,61 +37,61 @@ def main(name: str = "", *rpm: str) -> None:
         When there is no such scene, the model has no such speed, the scene has not been run, its
         blade has no mesh, or its files are of different models.
     """
-    of = Subject.read(name)
+    subject = Subject.read(name)
     asked = [speed / RPM for speed in numbers(rpm, ["RPM"] * len(rpm), 0)]
-    speeds = asked or [0.0, of.rom.Omega_m]
-    folder, (cells, basis) = of.folder / "export", everywhere(of)
+    speeds = asked or [0.0, subject.rom.Omega_m]
+    folder, (cells, basis) = subject.folder / "export", everywhere(subject)
     model = {
         **vars(basis),
-        **{name: of for name, of in vars(of.rom).items() if "gauge" not in name},
-        "power": 2 * np.arange(len(of.rom.K)),
+        **{name: array for name, array in vars(subject.rom).items() if "gauge" not in name},
+        "power": 2 * np.arange(len(subject.rom.K)),
         "Omega": np.array(speeds),
-        "K_at": np.array([of.rom.stiffness(Omega) for Omega in speeds]),
+        "K_at": np.array([subject.rom.stiffness(Omega) for Omega in speeds]),
         "cells": cells,
-        "unit": of.blade.drawn.unit,
-        "provenance": of.rom.provenance.dump(),
+        "unit": subject.blade.drawn.unit,
+        "provenance": subject.rom.provenance.dump(),
     }
     rmtree(folder, ignore_errors=True)
     with whole(folder / "model.mat") as mat, whole(folder / "model.npz") as npz:
         savemat(mat, model)
         np.savez(npz, **model)
-    write_whole(table(of.runs), folder / "sweep.csv")
+    write_whole(table(subject.runs), folder / "sweep.csv")
     for Omega in speeds:
-        omega, Phi = of.rom.modes(Omega)
+        omega, Phi = subject.rom.modes(Omega)
         shapes = (basis.T @ Phi[:, :MODES]).T.reshape(-1, *basis.coordinates.shape)
         named = zip(omega / (2 * np.pi), shapes, strict=False)
         data = {f"mode {i} ({f:.1f} Hz)": shape for i, (f, shape) in enumerate(named, 1)}
         save_vtu(basis.coordinates, cells, data, folder / f"modes-{RPM * Omega:.0f}rpm.vtu")
-    for Omega in asked if "motion" in of.runs else []:
-        run = of.runs.isel({SPEED: int(abs(of.runs["speed"].values - Omega).argmin())})
-        steps(run, cells, basis, of.blade.drawn.unit, folder)
+    for Omega in asked if "motion" in subject.runs else []:
+        run = subject.runs.isel({SPEED: int(abs(subject.runs["speed"].values - Omega).argmin())})
+        steps(run, cells, basis, subject.blade.drawn.unit, folder)
     print(f"{folder}: {', '.join(sorted(path.name for path in folder.iterdir()))}")
 
 
-def everywhere(of: Subject) -> tuple[NDArray[np.int64], Basis]:
+def everywhere(subject: Subject) -> tuple[NDArray[np.int64], Basis]:
     """Cells (cells, 10) of the mesh, and the basis of all its nodes, in its file's axes and unit.
 
     Displacements of clamped nodes are 0.
     """
-    results, source = of.folder.parent, of.blade.drawn
-    basis = Basis.load(results / f"basis-{of.scene.directions}.h5", of.rom.provenance)
+    results, source = subject.folder.parent, subject.blade.drawn
+    basis = Basis.load(results / f"basis-{subject.scene.directions}.h5", subject.rom.provenance)
     mesh = read_mesh_file(intact(results / "blade.msh"))
-    rows = np.zeros((of.rom.n + len(basis.u_static), mesh.points.size))
+    rows = np.zeros((subject.rom.n + len(basis.u_static), mesh.points.size))
     rows[:, dofs_at(mesh.points, basis.coordinates).ravel()] = [*basis.T.T, *basis.u_static]
-    T, static = np.split(to_file(rows, source), [of.rom.n])
+    T, static = np.split(to_file(rows, source), [subject.rom.n])
     points = to_file(mesh.points, source)
     return turned(mesh.cells, source), replace(basis, T=T.T, u_static=static, coordinates=points)
 
 
 def steps(run: xr.Dataset, cells: NDArray[np.int64], basis: Basis, unit: str, folder: Path) -> None:
     """Write the last revolution of a run as a numbered series, all states or every k-th."""
-    static, at = basis.static(float(run["speed"])), f"steps-{RPM * float(run['speed']):.0f}rpm"
+    static, series = basis.static(float(run["speed"])), f"steps-{RPM * float(run['speed']):.0f}rpm"
     states = run["motion"].dropna("motion_time")
     for number, state in enumerate(states[:: max(len(states) - 1, 0) // MOST_STEPS + 1]):
         vibration = basis.reconstruct(state.values)
         data = {"displacement": static + vibration, "vibration": vibration}
         shown = {f"{name} ({unit})": u.reshape(-1, 3).astype("f4") for name, u in data.items()}
-        path, time = folder / at / f"{at}-{number:04}.vtu", float(state["motion_time"])
+        path, time = folder / series / f"{series}-{number:04}.vtu", float(state["motion_time"])
         save_vtu(basis.coordinates, cells, shown, path, {"TimeValue": time})
 
 
@@ -100,7 +100,11 @@ def table(runs: xr.Dataset) -> str:
     if "wear" in runs:
         runs = runs.assign({"largest wear": runs["wear"].max(("strip", "theta"), keep_attrs=True)})
     single = runs.drop_dims({*runs.dims} - {SPEED}).reset_coords()
-    names = {name: f"{name} ({of.units})" for name, of in single.items() if of.units != "1"}
+    names = {
+        name: f"{name} ({variable.units})"
+        for name, variable in single.items()
+        if variable.units != "1"
+    }
     return single.assign(rpm=RPM * single["speed"]).rename(names).to_dataframe().to_csv()
 
 

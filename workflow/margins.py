@@ -17,7 +17,7 @@ HEADS = [
 
 
 def rows(
-    found: Mapping[str, Any],
+    campbell: Mapping[str, Any],
     peaks: Iterable[Mapping[str, Any]] = (),
     relative: float = 0.0,
     least: bool = False,
@@ -26,7 +26,7 @@ def rows(
 
     Parameters
     ----------
-    found : as of ``simulate.sweeps.peak.critical``; empty without operating speeds
+    campbell : as of ``simulate.sweeps.peak.critical``; empty without operating speeds
     peaks : of a sweep, each with ``what`` it is, k, rpm, rpm_error, and whether it is at an end of
         the sweep (``bound``)
     relative : error of the frequencies; with ``least`` a part of it is not known
@@ -38,38 +38,41 @@ def rows(
     speed, critical over operating speed less 1, and of frequency, (f - k Omega) / (k Omega) at the
     operating speed (None of a rub peak).
     """
-    critical = [
-        of
+    crossings = [
+        crossing
         | {
-            "rpm_error": relative * of["rpm"] + abs(of["quadratic_rpm"] - of["rpm"]),
+            "rpm_error": relative * crossing["rpm"]
+            + abs(crossing["quadratic_rpm"] - crossing["rpm"]),
             "least": least,
         }
-        for of in found.get("crossings", ())
+        for crossing in campbell.get("crossings", ())
     ]
-    critical += [
+    rub_peaks = [
         {
-            "what": of["what"],
+            "what": peak["what"],
             "mode": None,
-            "k": of["k"],
-            "rpm": of["rpm"],
+            "k": peak["k"],
+            "rpm": peak["rpm"],
             "quadratic_rpm": None,
-            "bound": of["bound"],
-            "rpm_error": of["rpm_error"],
-            "least": of["least"],
+            "bound": peak["bound"],
+            "rpm_error": peak["rpm_error"],
+            "least": peak["least"],
         }
-        for of in peaks
+        for peak in peaks
     ]
     return [
         {
             "line": name,
-            "line_rpm": at,
-            **of,
-            "speed_margin": of["rpm"] / at - 1,
-            "frequency_margin": of["mode"]
-            and found["Hz"][name][of["mode"] - 1] / (of["k"] * at / 60) - 1,
+            "line_rpm": line_rpm,
+            **row,
+            "speed_margin": row["rpm"] / line_rpm - 1,
+            "frequency_margin": row["mode"]
+            and campbell["Hz"][name][row["mode"] - 1] / (row["k"] * line_rpm / 60) - 1,
         }
-        for name, at in found.get("lines", {}).items()
-        for of in sorted(critical, key=lambda of, at=at: abs(of["rpm"] / at - 1))
+        for name, line_rpm in campbell.get("lines", {}).items()
+        for row in sorted(
+            crossings + rub_peaks, key=lambda row, rpm=line_rpm: abs(row["rpm"] / rpm - 1)
+        )
     ]
 
 
@@ -87,7 +90,7 @@ def table(margins: Iterable[Mapping[str, Any]]) -> list[list[str]]:
             markdown.cell(row["mode"]),
             str(row["k"]),
             speed(row),
-            *(share(row[f"{of}_margin"]) for of in ("speed", "frequency")),
+            *(share(row[f"{kind}_margin"]) for kind in ("speed", "frequency")),
         ]
         for row in near(margins)
     ]
@@ -98,8 +101,8 @@ def speed(row: Mapping[str, Any]) -> str:
     error = row["rpm_error"]
     if row["bound"] or not error:
         return f"{row['rpm']:.0f}{' (end)' * row['bound']}"
-    known = ("≥" if row["least"] else "±") + markdown.two_digits(error)
-    return f"{row['rpm']:.0f} {known if isfinite(error) else markdown.NOT_KNOWN}"
+    bound = ("≥" if row["least"] else "±") + markdown.two_digits(error)
+    return f"{row['rpm']:.0f} {bound if isfinite(error) else markdown.NOT_KNOWN}"
 
 
 def share(margin: float | None) -> str:
@@ -108,22 +111,29 @@ def share(margin: float | None) -> str:
 
 
 def nearest(
-    found: Mapping[str, Any],
+    campbell: Mapping[str, Any],
     margins: Sequence[Mapping[str, Any]],
     name: str,
-    of: str = "critical speed",
+    subject: str = "critical speed",
 ) -> Iterator[str]:
     """The critical speed next above and next below an operating speed, a line each.
 
-    ``of``: name of the subject of the ``margins``.
+    ``subject``: name of the subject of the ``margins``.
     """
     for side, sign in (("above", 1), ("below", -1)):
         near = [row for row in margins if row["line"] == name and sign * row["speed_margin"] > 0]
-        told = _told(near[0]) if near else "none" + f" up to {found['up_to']:.0f} rpm" * (sign > 0)
-        yield f"{name.capitalize()} speed {found['lines'][name]:.0f} rpm, next {of} {side}: {told}."
+        text = (
+            _with_margins(near[0])
+            if near
+            else "none" + f" up to {campbell['up_to']:.0f} rpm" * (sign > 0)
+        )
+        yield (
+            f"{name.capitalize()} speed {campbell['lines'][name]:.0f} rpm, "
+            f"next {subject} {side}: {text}."
+        )
 
 
-def _told(row: Mapping[str, Any]) -> str:
+def _with_margins(row: Mapping[str, Any]) -> str:
     """A critical speed with its margins."""
     mode, frequency = f" with mode {row['mode']}", f", frequency {share(row['frequency_margin'])}"
     return (
@@ -132,15 +142,15 @@ def _told(row: Mapping[str, Any]) -> str:
     )
 
 
-def covered(found: Mapping[str, Any], swept: Sequence[float]) -> str:
+def covered(campbell: Mapping[str, Any], swept: Sequence[float]) -> str:
     """Subject of the margins; ``swept``: slowest and fastest run with a result, rpm, if any."""
-    orders, of_f1 = (", ".join(map(str, found[of])) for of in ("orders", "peaks"))
-    before, top = found["through"]
-    further = f", of mode 1 with EO {of_f1}" if of_f1 else ""
+    orders, orders_of_f1 = (", ".join(map(str, campbell[key])) for key in ("orders", "peaks"))
+    before, top = campbell["through"]
+    further = f", of mode 1 with EO {orders_of_f1}" if orders_of_f1 else ""
     rub = f", and of rub peaks from {swept[0]:.0f} to {swept[-1]:.0f} rpm" if swept else ""
     return (
-        f"Margins are of crossings of modes 1 to {found['modes']} with EO {orders}{further}{rub}. "
-        f"Above {top:.0f} rpm, the highest speed of the model, f² is extrapolated linearly in Ω² "
-        f"from {before:.0f} and {top:.0f} rpm, up to {found['up_to']:.0f} rpm; ± includes the "
-        "difference from the quadratic. Gyroscopic terms are not in the model."
+        f"Margins are of crossings of modes 1 to {campbell['modes']} with EO {orders}{further}"
+        f"{rub}. Above {top:.0f} rpm, the highest speed of the model, f² is extrapolated linearly "
+        f"in Ω² from {before:.0f} and {top:.0f} rpm, up to {campbell['up_to']:.0f} rpm; ± includes "
+        "the difference from the quadratic. Gyroscopic terms are not in the model."
     )

@@ -67,7 +67,7 @@ class Number(NamedTuple):
         """
         value, digits = self.value, DIGITS
         if self.error and value and isfinite(self.error):
-            first, last = (floor(log10(abs(of))) for of in (value, rounded(self.error, 1)))
+            first, last = (floor(log10(abs(x))) for x in (value, rounded(self.error, 1)))
             digits = min(max(first - last + 1, 1), MOST)
         if self.error or abs(value) < 1000:
             value = rounded(value, digits)

@@ -43,11 +43,11 @@ SHOWN = SOURCES.keys() - {".brep", ".csv", ""}  # their contents
 SHARES = (0.4, 0.95)  # of the blade's highest speed: of the sweep
 
 
-def new(kind: str, name: str, about: str | None = None, here: Path = Path()) -> Path:
+def new(kind: str, name: str, about: str | None = None, folder: Path = Path()) -> Path:
     """Write the file of a new blade, scene or experiment.
 
     ``about``: file of a blade, blade of a scene, or scene of an experiment. A blade's file is
-    copied beside it. ``here``: where a relative ``about`` begins.
+    copied beside it. ``folder``: where a relative ``about`` begins.
 
     Raises
     ------
@@ -60,22 +60,22 @@ def new(kind: str, name: str, about: str | None = None, here: Path = Path()) -> 
     if path.exists():
         raise SettingsError("choose another name", file=path, key="exists")
     if kind == "blade":
-        text = _blade(path, about, here)
+        text = _blade(path, about, folder)
     elif kind == "scene":
         text = _scene(name, about or "reference")
     else:
         text = _experiment(name, about or "paper-e1")
     values, _ = parse(text)
     check_settings(MODELS[kind], values, str(path))
-    of_editor = json.dumps(schema(MODELS[kind]), indent=1) + "\n"
-    write_whole(of_editor, Path(SCHEMAS, f"{kind}.json"))
+    editor_schema = json.dumps(schema(MODELS[kind]), indent=1) + "\n"
+    write_whole(editor_schema, Path(SCHEMAS, f"{kind}.json"))
     write_whole(text, path)
     return path
 
 
-def _blade(path: Path, file: str | None, here: Path) -> str:
+def _blade(path: Path, file: str | None, folder: Path) -> str:
     """The file of a blade, with the geometry ``file`` copied beside it."""
-    source = here / file if file else None
+    source = folder / file if file else None
     if source and not source.is_file():
         raise SettingsError("no such file", file=file)
     suffix = source.suffix.lower() if source else ""
@@ -115,23 +115,23 @@ def schema(model: type[BaseModel]) -> dict[str, Any]:
 
     A file with a `base` has only the differences: there no key is required.
     """
-    of = model.model_json_schema()
-    required = of.pop("required", [])
-    for nested in of["$defs"].values():
+    whole = model.model_json_schema()
+    required = whole.pop("required", [])
+    for nested in whole["$defs"].values():
         nested.pop("required", None)
-    of["properties"]["base"] = {"type": "string", "description": "File that this one changes"}
-    of["anyOf"] = [{"required": ["base"]}, {"required": required}]
-    return of
+    whole["properties"]["base"] = {"type": "string", "description": "File that this one changes"}
+    whole["anyOf"] = [{"required": ["base"]}, {"required": required}]
+    return whole
 
 
 @command
-def main(arguments: list[str], here: Path = Path()) -> None:
+def main(arguments: list[str], folder: Path = Path()) -> None:
     """Run the command line."""
     if not 2 <= len(arguments) <= 3 or arguments[0] not in FOLDERS:
         raise UserError(__doc__)
     if arguments[0] == "blade" and Path(arguments[-1]).suffix.lower() in SHOWN:
-        _show(here / arguments[2])
-    path = new(*arguments, here=here)
+        _show(folder / arguments[2])
+    path = new(*arguments, folder=folder)
     first = "set the lines marked with <--, then: " if "<--" in path.read_text() else ""
     print(f"{path}: {first}{_next(*arguments)}")
 

@@ -25,7 +25,7 @@ from workflow.paper import long, report
 from workflow.paper.claims import COATING
 from workflow.paper.printed import SHIFTS
 from workflow.study import bases, interface, mesh, rotor37, scaling, stability, trade_table
-from workflow.summary import about, at_speeds, over_gap, terminal
+from workflow.summary import about, crossings_and_ends, over_gap, terminal
 
 FOLDERS = ("geometry", "fem", "rom", "simulate", "workflow", "profiles", "tests")
 PAGES = (
@@ -41,7 +41,7 @@ OVER_GAP = ("‖Y‖ / gap", "worn depth / gap")
 type Pages = dict[str, str]  # text by path
 
 
-def found(summary: Mapping[str, Any]) -> str:
+def coatings(summary: Mapping[str, Any]) -> str:
     """Critical speeds, amplitudes and wear of both coatings at the two main engine orders."""
     peaks = {(scene["scene"], str(row["k"])): row for scene, row in _peaks(summary)}
     rows = [
@@ -59,10 +59,11 @@ def scenes(summary: Mapping[str, Any]) -> str:
         for scene, row in _peaks(summary)
     ]
     head = ["scene", "k", *OVER_F1, *OVER_GAP, "lobes", "second runs"]
-    told = [
-        " ".join([f"- {of['scene']}: {about(of)}.", *at_speeds(of)]) for of in summary["scenes"]
+    facts = [
+        " ".join([f"- {scene['scene']}: {about(scene)}.", *crossings_and_ends(scene)])
+        for scene in summary["scenes"]
     ]
-    return "\n".join([table(head, rows), "", *told])
+    return "\n".join([table(head, rows), "", *facts])
 
 
 def printed(summary: Mapping[str, Any]) -> str:
@@ -72,7 +73,7 @@ def printed(summary: Mapping[str, Any]) -> str:
 
 def _peaks(summary: Mapping[str, Any]) -> Iterator[tuple[Mapping[str, Any], Mapping[str, Any]]]:
     """Each scene with each of its peaks along an engine order."""
-    return ((of, row) for of in summary["scenes"] for row in of["rows"] if row["k"])
+    return ((scene, row) for scene in summary["scenes"] for row in scene["rows"] if row["k"])
 
 
 def verdicts(judged: Sequence[Mapping[str, Any]]) -> str:
@@ -85,9 +86,9 @@ def inputs(counts: Mapping[str, Any]) -> str:
     kinds = counts["kinds"]
     good = ("refused", "right")
     rows = [
-        [kind, total, *found, total - sum(found)]
-        for kind, of in kinds.items()
-        for total, found in [(sum(of.values()), [of.get(name, 0) for name in good])]
+        [kind, total, *counted, total - sum(counted)]
+        for kind, by_result in kinds.items()
+        for total, counted in [(sum(by_result.values()), [by_result.get(name, 0) for name in good])]
     ]
     totals = ["all", *(sum(column) for column in zip(*(row[1:] for row in rows), strict=True))]
     head = ["what is written", "inputs", "refused in a line", "read as it says", "anything else"]
@@ -99,18 +100,20 @@ def bricks(solved: Mapping[str, Any]) -> str:
     limit = solved["limit_Hz"]
     rows = [
         [
-            f"{of['cells']:,} {of['kind']}",
-            of["program"],
-            _nodes(of),
-            *_few(of["frequencies_Hz"]),
-            *map(_farthest, of["frequencies_Hz"], limit),
-            two_digits(of["cpu_s"]),
+            f"{row['cells']:,} {row['kind']}",
+            row["program"],
+            _nodes(row),
+            *_few(row["frequencies_Hz"]),
+            *map(_farthest, row["frequencies_Hz"], limit),
+            two_digits(row["cpu_s"]),
         ]
-        for of in solved["rows"]
+        for row in solved["rows"]
     ]
     at_speed = f"at {solved['speed_rad_s']:g} rad/s"
-    head = ["cells", "program", "nodes", "f₁, Hz", "f₂", "f₁₀", f"f₁ {at_speed}"]
-    head += ["largest of ten differences", at_speed, "CPU, s"]
+    head = [
+        *("cells", "program", "nodes", "f₁, Hz", "f₂", "f₁₀", f"f₁ {at_speed}"),
+        *("largest of ten differences", at_speed, "CPU, s"),
+    ]
     return table(head, [["limit of tetrahedra", "", "", *_few(limit), "", "", ""], *rows])
 
 
@@ -121,19 +124,21 @@ def _nodes(solved: Mapping[str, Any]) -> str:
 
 def _few(frequencies: Sequence[Sequence[float]]) -> list[str]:
     """The first, second and tenth frequency at rest, and the first at speed."""
-    at_rest, at_speed = frequencies
-    return [f"{f:.2f}" for f in (at_rest[0], at_rest[1], at_rest[9], at_speed[0])]
+    rest, running = frequencies
+    return [f"{f:.2f}" for f in (rest[0], rest[1], rest[9], running[0])]
 
 
 def _farthest(frequencies: Sequence[float], limit: Sequence[float]) -> str:
     """The largest relative difference."""
-    return change(max((f / of - 1 for f, of in zip(frequencies, limit, strict=True)), key=abs))
+    return change(
+        max((f / f_limit - 1 for f, f_limit in zip(frequencies, limit, strict=True)), key=abs)
+    )
 
 
 # block, file that holds its numbers, function that writes them
 TRADE = "results/experiments/trade/table.json"
 COMPUTED = (
-    ("found", "results/summary.json", found),
+    ("found", "results/summary.json", coatings),
     ("printed", "results/summary.json", printed),
     ("verdicts", "results/paper/claims.json", verdicts),
     ("identified", "results/identify/reference/fits.json", identified.answer),
@@ -150,7 +155,7 @@ COMPUTED = (
     ("mesh", "results/experiments/mesh/table.json", mesh.table),
     ("bases", "results/experiments/bases/table.json", bases.table),
     ("rotor37", "results/experiments/frequencies/table.json", rotor37.prestress_table),
-    ("levels", TRADE, trade_table.of_levels),
+    ("levels", TRADE, trade_table.by_level),
     ("converges", "results/interface/interface.json", interface.results),
     ("nodes", "results/interface/interface.json", interface.all_nodes),
     ("interfaces", TRADE, trade_table.interfaces),
@@ -188,7 +193,7 @@ class BlockError(UserError):
     """A generated block that is on no page or on two, that nothing fills, or without an end."""
 
 
-class Row(NamedTuple):
+class KeyRow(NamedTuple):
     """One key of a settings model, as the tables show it."""
 
     key: str
@@ -250,20 +255,21 @@ def generated(pages: Mapping[str, str], folder: Path = Path()) -> Pages:
     """
     require_blocks(pages)
     bodies = {name: settings_table(model) for name, model in SETTINGS.items()}
-    for name, file, table_of in COMPUTED:
+    for name, file, markdown_of in COMPUTED:
         path = folder / file
         if path.exists():
             numbers = read_json(path) if path.suffix == ".json" else path.read_text()
-            bodies[name] = table_of(numbers).strip()
+            bodies[name] = markdown_of(numbers).strip()
 
     def filled(block: re.Match) -> str:
+        """The block with its new body, or as it is where nothing fills it."""
         body = bodies.get(block["name"])
         return block[0] if body is None else f"{block['begin']}{body}\n{block['end']}"
 
     return {page: BLOCK.sub(filled, text) for page, text in pages.items()}
 
 
-def _rows(schema: Schema, models: Schema, prefix: str) -> list[Row]:
+def _rows(schema: Schema, models: Schema, prefix: str) -> list[KeyRow]:
     """Rows of the keys of a model's ``schema``; ``models`` are those it refers to, by name."""
     return [
         row
@@ -272,8 +278,8 @@ def _rows(schema: Schema, models: Schema, prefix: str) -> list[Row]:
     ]
 
 
-def _key_rows(name: str, key: Schema, models: Schema) -> list[Row]:
-    """Row of a value, or those of the keys below."""
+def _key_rows(name: str, key: Schema, models: Schema) -> list[KeyRow]:
+    """KeyRow of a value, or those of the keys below."""
     values = _values(key, models)
     items = [item for value in values for item in _values(value.get("items", {}), models)]
     for nested, below in ((values, f"{name}."), (items, f"{name}[].")):
@@ -281,7 +287,7 @@ def _key_rows(name: str, key: Schema, models: Schema) -> list[Row]:
             if len(nested) == 1:
                 return _rows(nested[0], models, below)
             return _branch_rows(nested, models, below)
-    return [Row(name, key["description"], _allowed(values + items), _default(key))]
+    return [KeyRow(name, key["description"], _allowed(values + items), _default(key))]
 
 
 def _values(schema: Schema, models: Schema) -> list[Schema]:
@@ -294,26 +300,30 @@ def _values(schema: Schema, models: Schema) -> list[Schema]:
     return [] if schema.get("type", "null") == "null" else [schema]
 
 
-def _branch_rows(branches: list[Schema], models: Schema, prefix: str) -> list[Row]:
-    """Rows of a union: the key that tells its models apart, then each key with who has it."""
+def _branch_rows(branches: list[Schema], models: Schema, prefix: str) -> list[KeyRow]:
+    """Rows of a union: the key that chooses the model, then each key with its models."""
     name = next(name for name, key in branches[0]["properties"].items() if "const" in key)
     tags = {branch["properties"][name]["const"]: branch["properties"][name] for branch in branches}
     meaning = "; ".join(f"`{tag}`: {key['description']}" for tag, key in tags.items())
     default = next((_default(key) for key in tags.values() if "default" in key), REQUIRED)
-    owners: dict[Row, list[str]] = {}
+    owners: dict[KeyRow, list[str]] = {}
     for tag, branch in zip(tags, branches, strict=True):
         for row in _rows(branch, models, prefix):
             owners.setdefault(row, []).append(f"`{tag}`")
-    told_apart = Row(f"{prefix}{name}", meaning, _choices(tags), default)
-    others = [row for row in owners if row.key != told_apart.key]
+    tag_row = KeyRow(f"{prefix}{name}", meaning, _choices(tags), default)
+    others = [row for row in owners if row.key != tag_row.key]
     keys = [row.key for row in others]
     others.sort(key=lambda row: keys.index(row.key))  # the same key of two models, side by side
-    return [told_apart, *(_of_owners(row, owners[row], len(branches)) for row in others)]
+    return [tag_row, *(_with_owners(row, owners[row], len(branches)) for row in others)]
 
 
-def _of_owners(row: Row, owners: list[str], of: int) -> Row:
-    """The row, led by who has it unless all have."""
-    return row if len(owners) == of else row._replace(meaning=f"{', '.join(owners)}: {row.meaning}")
+def _with_owners(row: KeyRow, owners: list[str], number: int) -> KeyRow:
+    """The row, led by the models that have it unless all have."""
+    return (
+        row
+        if len(owners) == number
+        else row._replace(meaning=f"{', '.join(owners)}: {row.meaning}")
+    )
 
 
 def _choices(names: Iterable[str]) -> str:
@@ -325,8 +335,10 @@ def _allowed(values: list[Schema]) -> str:
     for value in values:
         if "properties" in value:
             return f"list, or {_choices(value['properties'])}"
-    choices = [name for value in values for name in value.get("enum", [])]
-    choices += [value["const"] for value in values if "const" in value]
+    choices = [
+        *(name for value in values for name in value.get("enum", [])),
+        *(value["const"] for value in values if "const" in value),
+    ]
     bounds = [
         f"{sign} {value[bound]}"
         for value in values

@@ -39,30 +39,34 @@ def write(
 
     Its place is in the axes and unit of the blade's file; ``missed`` is the share of the motion
     that the shapes leave out, in the norm of the strain energy. A motion that still grows has no
-    mean and no amplitude yet: of that nothing is told.
+    mean and no amplitude yet, and no stresses in its row.
     """
-    of_basis = Basis.load(basis, origin(sweep))
+    full_basis = Basis.load(basis, origin(sweep))
     solid, fatigue = read_solid(mesh, blade.material), blade.fatigue
     moved = motion(sweep, rom.stiffness(rom.Omega_m / 2), SHAPES)
-    sigma = stresses(solid, of_basis, moved.shapes, blade.prestress)
+    sigma = stresses(solid, full_basis, moved.shapes, blade.prestress)
     settled, (cells, points) = away(solid), grid_of(solid)
     nodes, fields = np.flatnonzero(settled), {"away from clamp and contact": settled.astype(float)}
-    away_from, peaks, rows = sigma[:, :, nodes], {of.index for of in asked(sweep, rom)}, []
-    told = (sweep[name].values.tolist() for name in ("speed", "speed_over_f1", "trend"))
-    for speed, (missed, Omega, over_f1, trend) in enumerate(zip(moved.missed, *told, strict=True)):
+    away_from, peaks, rows = sigma[:, :, nodes], {peak.index for peak in asked(sweep, rom)}, []
+    columns = (sweep[name].values.tolist() for name in ("speed", "speed_over_f1", "trend"))
+    for speed, (missed, Omega, over_f1, trend) in enumerate(
+        zip(moved.missed, *columns, strict=True)
+    ):
         rows.append({"speed_over_f1": over_f1, "trend": trend, "missed": float(missed)})
-        part, a = Omega / of_basis.Omega_m, moved.with_rotation(speed)
+        part, a = Omega / full_basis.Omega_m, moved.with_rotation(speed)
         if trend == GROWING or len(a) == 0:
             continue
-        node, found = worst(evaluate(away_from, part), a, fatigue)
+        node, stresses_there = worst(evaluate(away_from, part), a, fatigue)
         rows[-1] |= {
-            **found,
+            **stresses_there,
             "at": to_file(points[nodes[node]], blade.drawn).tolist(),
             "unit": blade.drawn.unit,
         }
         if speed in peaks:
-            of_all = numbers(*cycles(evaluate(sigma, part), a), fatigue)
-            fields |= {f"{LABELS[of]}, {RPM * Omega:.0f} rpm": of_all[of] for of in of_all}
+            everywhere = numbers(*cycles(evaluate(sigma, part), a), fatigue)
+            fields |= {
+                f"{LABELS[label]}, {RPM * Omega:.0f} rpm": everywhere[label] for label in everywhere
+            }
     save_vtu(points, cells, fields, vtu)
     return {
         **names,
@@ -72,7 +76,7 @@ def write(
 
 
 @dataclass(frozen=True)
-class Motion:
+class Decomposition:
     """Displacement at speed i and time t: sum of a[i, t] over the shapes."""
 
     shapes: NDArray[np.float64]  # (n, shapes), reduced coordinates
@@ -85,7 +89,7 @@ class Motion:
         return np.hstack([np.ones((len(a), 1)), a])
 
 
-def motion(sweep: Sweep, G: NDArray[np.float64], shapes: int) -> Motion:
+def motion(sweep: Sweep, G: NDArray[np.float64], shapes: int) -> Decomposition:
     """Proper orthogonal decomposition of ``sweep.motion`` with the norm (u^T G u)^(1/2).
 
     With G = M the first shapes hold the displacement, with G = K the strain energy, and so the
@@ -97,15 +101,15 @@ def motion(sweep: Sweep, G: NDArray[np.float64], shapes: int) -> Motion:
     states = sweep["motion"].values.astype(float)
     states = np.where(np.isin(sweep["status"], WITH_RESULT)[:, None, None], states, np.nan)
     L = np.linalg.cholesky(G)
-    there = [of[~np.isnan(of).any(axis=1)] @ L for of in states]
+    there = [state[~np.isnan(state).any(axis=1)] @ L for state in states]
     weighted = [y / norm(y) for y in there if np.any(y)]
     _, _, V = np.linalg.svd(sum(y.T @ y for y in weighted) if weighted else np.eye(len(G)))
     first = V[:shapes].T
-    left_out = [y - y @ first @ first.T for y in there]
+    outside = [y - y @ first @ first.T for y in there]
     missed = [
-        norm(out) / norm(y) if np.any(y) else 0 for out, y in zip(left_out, there, strict=True)
+        norm(out) / norm(y) if np.any(y) else 0 for out, y in zip(outside, there, strict=True)
     ]
-    return Motion(np.linalg.solve(L.T, first), states @ L @ first, np.array(missed, float))
+    return Decomposition(np.linalg.solve(L.T, first), states @ L @ first, np.array(missed, float))
 
 
 def stresses(
@@ -120,8 +124,8 @@ def stresses(
     along = (basis.T @ shapes).T[:, order]
     speeds = np.sqrt((1 - np.cos(np.pi * np.arange(SPEEDS) / (SPEEDS - 1))) / 2)
     static = (basis.static(part * basis.Omega_m)[order] for part in speeds)
-    found = [linearised(solid, u, along, prestress)[1] for u in static]
-    return interpolate(np.array(found), speeds)
+    each_speed = [linearised(solid, u, along, prestress)[1] for u in static]
+    return interpolate(np.array(each_speed), speeds)
 
 
 def cycles(
@@ -132,8 +136,8 @@ def cycles(
     ``sigma`` (1 + shapes, nodes, 6): as of ``stresses`` at one speed; of rotation a is 1.
     """
     blocks = np.split(sigma, range(BLOCK, sigma.shape[1], BLOCK), axis=1)
-    found = [largest_cycle(np.tensordot(a, of, 1)) for of in blocks]
-    mean, alternating = map(np.concatenate, zip(*found, strict=True))
+    by_block = [largest_cycle(np.tensordot(a, block, 1)) for block in blocks]
+    mean, alternating = map(np.concatenate, zip(*by_block, strict=True))
     return mean, alternating
 
 
@@ -154,17 +158,17 @@ def worst(
     first = np.argsort(bound)[:BLOCK]
     least = _reserve(numbers(*cycles(sigma[:, first], a), fatigue)).min()
     nodes = np.union1d(first, np.flatnonzero(bound < least))
-    found = numbers(*cycles(sigma[:, nodes], a), fatigue)
-    best = _reserve(found).argmin()
-    return nodes[best], {name: float(of[best]) for name, of in found.items()}
+    exact = numbers(*cycles(sigma[:, nodes], a), fatigue)
+    best = _reserve(exact).argmin()
+    return nodes[best], {name: float(values[best]) for name, values in exact.items()}
 
 
 def numbers(mean: Any, alternating: Any, fatigue: Fatigue | None) -> dict[str, Any]:
     """Stresses, Pa, and their margin where there is a strength, by name."""
-    of_strength = {"margin": margin(mean, alternating, fatigue)} if fatigue else {}
-    return {"mean_stress": mean, "alternating": alternating, **of_strength}
+    reserve = {"margin": margin(mean, alternating, fatigue)} if fatigue else {}
+    return {"mean_stress": mean, "alternating": alternating, **reserve}
 
 
-def _reserve(of: dict[str, NDArray[np.float64]]) -> NDArray[np.float64]:
+def _reserve(numbers: dict[str, NDArray[np.float64]]) -> NDArray[np.float64]:
     """What is least at the worst node."""
-    return of.get("margin", -of["alternating"])
+    return numbers.get("margin", -numbers["alternating"])

@@ -9,13 +9,13 @@ from math import isfinite
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from geometry.blade import RPM_PER_HZ
 from geometry.project import csv_text, read_json
 from simulate.errors.neighbour import CHAOTIC, ONE_MOTION, TWO_MOTIONS
 from simulate.scene import DYING_OUT, GROWING, TRENDS
 from workflow import margins, markdown
 from workflow.markdown import Number
 
-RPM_PER_HZ = 60.0
 ALL = "all"  # numbers of a peak
 
 
@@ -92,8 +92,10 @@ PARTS = {  # of uncertainties, that may not be known
 }
 
 # Values of a scene taken from its answers as they are.
-TOLD = ("scene", "blade", "f1_Hz", "gap_m", "dofs", "crossings", "status", "reasons", "ends")
-TOLD += ("checks", "doubt", "no_torque", "mu_crit", "sweep_s")
+COPIED = (
+    *("scene", "blade", "f1_Hz", "gap_m", "dofs", "crossings", "status", "reasons", "ends"),
+    *("checks", "doubt", "no_torque", "mu_crit", "sweep_s"),
+)
 
 COURSE = {  # of ``dataset.course``: unit and its scale from SI
     "time_constant": ("rounds", 1.0),
@@ -117,99 +119,108 @@ def numbers(
     from rom.model import Rom  # slow imports, which Snakemake does without
     from simulate.sweeps.peak import critical
 
-    stress = {of["scene"]: of for of in map(read_json, getattr(files, "stress", []))}
+    stress = {row["scene"]: row for row in map(read_json, getattr(files, "stress", []))}
     scenes = [
         _scene(
-            of,
-            stress.get(of["scene"]),
-            (lines := operating.get(of["blade"], {})) and critical(Rom.load(rom), lines),
+            results,
+            stress.get(results["scene"]),
+            (lines := operating.get(results["blade"], {})) and critical(Rom.load(rom), lines),
         )
-        for of, rom in zip(map(read_json, files.answers), files.roms, strict=True)
+        for results, rom in zip(map(read_json, files.answers), files.roms, strict=True)
     ]
     return {"scenes": scenes, "others": list(others)}
 
 
 def _scene(
-    of: Mapping[str, Any], stress: Mapping[str, Any] | None, found: Mapping[str, Any]
+    results: Mapping[str, Any], stress: Mapping[str, Any] | None, campbell: Mapping[str, Any]
 ) -> dict[str, Any]:
-    """One scene; ``stress``: as of ``stress.json``; ``found``: subject of its margins."""
-    known = {_key(row["speed_over_f1"]): row for row in stress["speeds"]} if stress else {}
-    rows = [_row(of, answer, known.get(_key(answer["Omega_c"]), {})) for answer in of["peaks"]]
+    """One scene; ``stress``: as of ``stress.json``; ``campbell``: subject of its margins."""
+    stress_by_speed = (
+        {_key(row["speed_over_f1"]): row for row in stress["speeds"]} if stress else {}
+    )
+    rows = [
+        _row(results, peak, stress_by_speed.get(_key(peak["Omega_c"]), {}))
+        for peak in results["peaks"]
+    ]
     peaks = [
         row | {"what": f"rub peak ({row['course']['trend']})" if moves(row) else "rub peak"}
         for row in rows
         if row["k"]
     ]
     return {
-        **{key: of[key] for key in TOLD},
-        "answers_s": sum(answer["seconds"] for answer in of["peaks"]),
-        "runs": sum(answer["runs"] for answer in of["peaks"]),
+        **{key: results[key] for key in COPIED},
+        "answers_s": sum(peak["seconds"] for peak in results["peaks"]),
+        "runs": sum(peak["runs"] for peak in results["peaks"]),
         "rows": rows,
-        "stresses": [*known.values()],
-        "operating": found,
-        "margins": margins.rows(found, peaks, _of_model(of), None in of["doubt"].values()),
+        "stresses": [*stress_by_speed.values()],
+        "operating": campbell,
+        "margins": margins.rows(
+            campbell, peaks, _model_error(results), None in results["doubt"].values()
+        ),
     }
 
 
-def _row(of: Mapping[str, Any], answer: Mapping[str, Any], stress: Mapping[str, Any]) -> Row:
+def _row(results: Mapping[str, Any], peak: Mapping[str, Any], stress: Mapping[str, Any]) -> Row:
     """One peak: speeds in rpm and over f1(0), all else in SI; None where it is not known.
 
     ``over_gap``: amplitude and wear over the gap, as figures have them.
     """
-    f1, k, over_f1 = of["f1_Hz"], answer["k"], answer["Omega_c"]
-    values, errors = dict(answer["numbers"]), dict(answer["errors"])
+    f1, k, over_f1 = results["f1_Hz"], peak["k"], peak["Omega_c"]
+    values, errors = dict(peak["numbers"]), dict(peak["errors"])
     values |= {name: stress[name] for name in STRESS & stress.keys()}
     return {
         "k": k,
         "rpm": RPM_PER_HZ * f1 * over_f1,
-        "rpm_error": _speed_error(of, answer),
-        "least": None in of["doubt"].values(),
+        "rpm_error": _speed_error(results, peak),
+        "least": None in results["doubt"].values(),
         "over_f1": over_f1,
         "hz": k and k * f1 * over_f1,
-        "over_crossing": answer["crossing"] and over_f1 / answer["crossing"],
-        "bound": answer["at_end"],
-        "status": answer["status"],
-        "word": answer["verdict"] or answer["status"],
-        "lobes": answer["lobes"],
-        "course": answer["course"],
-        "unknown": _unknown(of["doubt"], answer["parts"]),
+        "over_crossing": peak["crossing"] and over_f1 / peak["crossing"],
+        "bound": peak["at_end"],
+        "status": peak["status"],
+        "word": peak["verdict"] or peak["status"],
+        "lobes": peak["lobes"],
+        "course": peak["course"],
+        "unknown": _unknown(results["doubt"], peak["parts"]),
         "over_gap": {
-            "amplitude": answer["amplitude"],
-            "wear": (wear := values.get("wear")) and wear / of["gap_m"],
+            "amplitude": peak["amplitude"],
+            "wear": (wear := values.get("wear")) and wear / results["gap_m"],
         },
         "values": values,
         "errors": errors,
-        "other": answer["other"],
+        "other": peak["other"],
     }
 
 
-def _unknown(doubt: Mapping[str, float | None], parts: Mapping[str, Any]) -> dict[str, list[str]]:
+def _unknown(
+    model_errors: Mapping[str, float | None], parts: Mapping[str, Any]
+) -> dict[str, list[str]]:
     """Parts of the uncertainty that are not known: those of ``ALL`` numbers, and of the amplitude.
 
     ``parts``: relative changes by second run; None where this has no result.
     """
     failed = {name for name, changes in parts.items() if None in changes.values()}
-    of_all = {
+    is_unknown = {
         "twin": "twin" in failed,
-        "model": doubt["basis"] is None or "model" in failed,
-        "mesh": doubt["mesh"] is None or "mesh" in failed,
+        "model": model_errors["basis"] is None or "model" in failed,
+        "mesh": model_errors["mesh"] is None or "mesh" in failed,
         "fineness": bool((parts and not FINER & {*parts}) or failed & {*FINER, "patches"}),
     }
-    missing = [name for name, is_missing in of_all.items() if is_missing]
+    missing = [name for name, is_missing in is_unknown.items() if is_missing]
     return {ALL: missing, "amplitude": ["speeds"] if "speeds" in failed else []}
 
 
-def _speed_error(of: Mapping[str, Any], answer: Mapping[str, Any]) -> float | None:
+def _speed_error(results: Mapping[str, Any], peak: Mapping[str, Any]) -> float | None:
     """Uncertainty of a critical speed, rpm: spacing of the sweep, error of the frequencies."""
-    if answer["k"] is None or answer["spacing"] is None or answer["at_end"]:
+    if peak["k"] is None or peak["spacing"] is None or peak["at_end"]:
         return None
-    apart = answer["spacing"] + _of_model(of) * answer["Omega_c"]
-    return RPM_PER_HZ * of["f1_Hz"] * apart
+    off = peak["spacing"] + _model_error(results) * peak["Omega_c"]
+    return RPM_PER_HZ * results["f1_Hz"] * off
 
 
-def _of_model(of: Mapping[str, Any]) -> float:
+def _model_error(results: Mapping[str, Any]) -> float:
     """Relative error of the frequencies, as far as it is known."""
-    return (of["doubt"]["basis"] or 0.0) + (of["doubt"]["mesh"] or 0.0)
+    return (results["doubt"]["basis"] or 0.0) + (results["doubt"]["mesh"] or 0.0)
 
 
 def _key(over_f1: float) -> float:
@@ -223,7 +234,7 @@ def table(summary: Mapping[str, Any]) -> str:
     for scene in summary["scenes"]:
         parts += [f"## {scene['scene']}", "", about(scene), ""]
         tables = [*shown(scene), (margins.HEADS, margins.table(scene["margins"]))]
-        parts += [line for of in tables if of[1] for line in (markdown.table(*of), "")]
+        parts += [line for cells in tables if cells[1] for line in (markdown.table(*cells), "")]
         parts += [*notes(scene), ""]
     return "\n".join([*parts, *left_out(summary), meaning()]) + "\n"
 
@@ -241,7 +252,7 @@ def meaning() -> str:
     return "\n".join(f"- {name}: {text}." for name, text in MEANING.items())
 
 
-def known(peaks: Iterable[Mapping[str, float]]) -> list[Column]:
+def known_columns(peaks: Iterable[Mapping[str, float]]) -> list[Column]:
     """Columns of the numbers that any of the peaks has."""
     names = set().union(*peaks)
     return [column for column in COLUMNS if column.name in names]
@@ -251,19 +262,19 @@ def terminal(summary: Mapping[str, Any]) -> str:
     """The same for a terminal, in columns."""
     parts = []
     for scene in summary["scenes"]:
-        lines = [line for of in shown(scene) for line in (*columns(*of), "")]
+        lines = [line for cells in shown(scene) for line in (*columns(*cells), "")]
         parts += ["", f"{scene['scene']}: {about(scene)}", *lines, *notes(scene)]
     return "\n".join([*parts, *left_out(summary)])
 
 
 def panel(
-    answers: Mapping[str, Any], found: Mapping[str, Any], stress: Mapping[str, Any] | None
+    answers: Mapping[str, Any], campbell: Mapping[str, Any], stress: Mapping[str, Any] | None
 ) -> dict[str, Any]:
     """The same of one scene's ``answers`` for its page, with the speeds of the rows over f1(0).
 
-    ``found``: as of ``simulate.sweeps.peak.critical``; ``stress``: as of ``stress.json``.
+    ``campbell``: as of ``simulate.sweeps.peak.critical``; ``stress``: as of ``stress.json``.
     """
-    scene = _scene(answers, stress, found)
+    scene = _scene(answers, stress, campbell)
     tables = [*shown(scene), (margins.HEADS, margins.table(scene["margins"]))]
     return {
         "about": about(scene),
@@ -280,8 +291,8 @@ def columns(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
     widths = [max(map(len, cells)) for cells in zip(*table, strict=True)]
     return [
         "  ".join(
-            cell.ljust(width) if at in (0, len(cells) - 1) else cell.rjust(width)
-            for at, (cell, width) in enumerate(zip(cells, widths, strict=True))
+            cell.ljust(width) if column in (0, len(cells) - 1) else cell.rjust(width)
+            for column, (cell, width) in enumerate(zip(cells, widths, strict=True))
         ).rstrip()
         for cells in table
     ]
@@ -289,16 +300,24 @@ def columns(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
 
 def shown(scene: Mapping[str, Any]) -> list[tuple[list[str], list[list[str]]]]:
     """Heads and rows of a scene's tables: motion and wear, then loads; without empty columns."""
-    kept, rows = known(row["values"] for row in scene["rows"]), scene["rows"]
+    kept, rows = known_columns(row["values"] for row in scene["rows"]), scene["rows"]
     second = LOADS | STRESS
-    motion, loads = ([of for of in kept if (of.name in second) is among] for among in (False, True))
-    of_motion = [
-        [_order(row), margins.speed(row), *_cells(row, motion), *_at_end(row), row["word"]]
+    motion, loads = (
+        [column for column in kept if (column.name in second) is among] for among in (False, True)
+    )
+    motion_rows = [
+        [
+            markdown.cell(row["k"]),
+            margins.speed(row),
+            *_cells(row, motion),
+            *_end_of_run(row),
+            row["word"],
+        ]
         for row in rows
     ]
-    of_loads = [
+    load_rows = [
         [
-            _order(row),
+            markdown.cell(row["k"]),
             f"{row['over_f1']:.3f}",
             f"{row['hz']:.1f}" if row["hz"] else "-",
             *_cells(row, loads),
@@ -306,14 +325,9 @@ def shown(scene: Mapping[str, Any]) -> list[tuple[list[str], list[list[str]]]]:
         for row in rows
     ]
     return [
-        (["EO", "rpm", *(of.head for of in motion), *AT_END, ""], of_motion),
-        (["EO", "Ω / f₁(0)", "Hz", *(of.head for of in loads)], of_loads),
+        (["EO", "rpm", *(column.head for column in motion), *AT_END, ""], motion_rows),
+        (["EO", "Ω / f₁(0)", "Hz", *(column.head for column in loads)], load_rows),
     ]
-
-
-def _order(row: Row) -> str:
-    """The engine order of a peak; a dash without one."""
-    return str(row["k"] or "-")
 
 
 def _cells(row: Row, columns: Iterable[Column]) -> list[str]:
@@ -323,21 +337,21 @@ def _cells(row: Row, columns: Iterable[Column]) -> list[str]:
 
 def _cell(row: Row, column: Column) -> str:
     """The number, that of another motion, its uncertainty in percent, and whether it goes on."""
-    value, error, other = (row[of].get(column.name) for of in ("values", "errors", "other"))
+    value, error, other = (row[kind].get(column.name) for kind in ("values", "errors", "other"))
     if value is None:
         return "-"
     number = column.number(value, error, least=_in_part(row, column.name))
     further = "" if other is None else f" or {column.number(other, error).shown}"
     goes_on = f", {row['course']['trend']}" if column.name == "amplitude" and moves(row) else ""
     revolution = row["course"].get("largest_round") if column.name == "displacement" else None
-    at = f" (rev. {revolution:.0f})" if revolution else ""
-    return f"{number.shown}{further} {number.share}{goes_on}".rstrip() + at
+    revolution_text = f" (rev. {revolution:.0f})" if revolution else ""
+    return f"{number.shown}{further} {number.share}{goes_on}".rstrip() + revolution_text
 
 
 def _in_part(row: Row, name: str) -> bool:
     """Whether parts of the uncertainty of a number are not known, others are."""
     return name not in STRESS and any(
-        row["unknown"][of] for of in (ALL, name) if of in row["unknown"]
+        row["unknown"][part] for part in (ALL, name) if part in row["unknown"]
     )
 
 
@@ -346,12 +360,14 @@ def moves(row: Row) -> bool:
     return row["course"].get("trend") in (GROWING, DYING_OUT)
 
 
-def _at_end(row: Row) -> list[str]:
+def _end_of_run(row: Row) -> list[str]:
     """Whether the motion is steady, its time constant, and the wear still going on."""
     course = row["course"]
     numbers = course.get("time_constant"), course.get("wears") and 1e9 * course["wears"]
-    known = [markdown.cell(of) if of is None or isfinite(of) else "-" for of in numbers]
-    return [course.get("trend", "-"), *known]
+    texts = [
+        markdown.cell(number) if number is None or isfinite(number) else "-" for number in numbers
+    ]
+    return [course.get("trend", "-"), *texts]
 
 
 def about(scene: Mapping[str, Any]) -> str:
@@ -369,17 +385,17 @@ def about(scene: Mapping[str, Any]) -> str:
 
 def notes(scene: Mapping[str, Any]) -> list[str]:
     """Crossings, ends of the sweep, operating lines, unknown parts, cost of uncertainties."""
-    lines = [*at_speeds(scene), *_of_lines(scene), *_worst(scene)]
+    lines = [*crossings_and_ends(scene), *_operating_lines(scene), *_worst(scene)]
     numbers = {name for row in scene["rows"] for name in row["values"]}
     missing = {part for row in scene["rows"] for parts in row["unknown"].values() for part in parts}
-    told = [PARTS[part] for part in PARTS if part in missing]
+    unknown = [PARTS[part] for part in PARTS if part in missing]
     without = [f"{row['rpm']:.0f}" for row in scene["rows"] if "alternating" not in row["values"]]
     if without:
-        told.append(f"stress at {', '.join(without)} rpm, of growing or unrecorded motions")
+        unknown.append(f"stress at {', '.join(without)} rpm, of growing or unrecorded motions")
     if "force" in numbers and scene["no_torque"]:
-        told.append(f"torque ({scene['no_torque']})")
-    if told:
-        lines.append(f"Not known: {', '.join(told)}.")
+        unknown.append(f"torque ({scene['no_torque']})")
+    if unknown:
+        lines.append(f"Not known: {', '.join(unknown)}.")
     if scene["mu_crit"]:
         lines.append(f"The tip locks at a friction coefficient of {scene['mu_crit']:.3f} or more.")
     cost = f"{scene['runs']} runs, {scene['answers_s']:.1f} s of CPU time"
@@ -390,54 +406,63 @@ def notes(scene: Mapping[str, Any]) -> list[str]:
     ]
 
 
-def _of_lines(scene: Mapping[str, Any]) -> list[str]:
+def _operating_lines(scene: Mapping[str, Any]) -> list[str]:
     """Critical speeds next to the operating speeds, and their subject; nothing without these."""
-    found = scene["operating"]
+    campbell = scene["operating"]
     swept = [RPM_PER_HZ * scene["f1_Hz"] * end["over_f1"] for end in scene["ends"]]
-    lines = [margins.nearest(found, scene["margins"], name) for name in found.get("lines", ())]
-    return [*chain(*lines), margins.covered(found, swept)] if found else []
+    lines = [
+        margins.nearest(campbell, scene["margins"], name) for name in campbell.get("lines", ())
+    ]
+    return [*chain(*lines), margins.covered(campbell, swept)] if campbell else []
 
 
 def _worst(scene: Mapping[str, Any]) -> list[str]:
     """Speed and node of the least margin, or of the largest alternating stress, of known speeds."""
-    known = [row for row in scene["stresses"] if "alternating" in row]
-    if not known:
+    stresses = [row for row in scene["stresses"] if "alternating" in row]
+    if not stresses:
         return []
-    row = min(known, key=lambda row: row.get("margin", -row["alternating"]))
-    told = [f"{of.head} {of.shown(row)}" for of in COLUMNS if of.name in STRESS & row.keys()]
+    row = min(stresses, key=lambda row: row.get("margin", -row["alternating"]))
+    numbers = [
+        f"{column.head} {column.shown(row)}"
+        for column in COLUMNS
+        if column.name in STRESS & row.keys()
+    ]
     place = ", ".join(f"{x:.4g}" for x in row["at"])
     return [
-        f"Worst stress of {len(known)} of {len(scene['stresses'])} speeds (no growing motions): "
+        f"Worst stress of {len(stresses)} of {len(scene['stresses'])} speeds (no growing motions): "
         f"{RPM_PER_HZ * scene['f1_Hz'] * row['speed_over_f1']:.0f} rpm, x, y, z = {place} "
-        f"{row['unit']}, {', '.join(told)}."
+        f"{row['unit']}, {', '.join(numbers)}."
     ]
 
 
-def at_speeds(scene: Mapping[str, Any]) -> list[str]:
+def crossings_and_ends(scene: Mapping[str, Any]) -> list[str]:
     """Linear crossings of f1, and results at the ends of the sweep."""
 
-    def at(over_f1: float) -> str:
+    def rpm_text(over_f1: float) -> str:
+        """A speed in rpm, and over f1(0)."""
         return f"{RPM_PER_HZ * scene['f1_Hz'] * over_f1:.0f} rpm ({over_f1:.3f})"
 
-    crossings = ", ".join(f"EO {k} at {at(of)}" for k, of in scene["crossings"].items())
-    seen = {at(end["over_f1"]): _seen(end) for end in scene["ends"]}
+    crossings = ", ".join(f"EO {k} at {rpm_text(speed)}" for k, speed in scene["crossings"].items())
+    seen = {rpm_text(end["over_f1"]): _seen(end) for end in scene["ends"]}
     ends = "; ".join(f"{where}: {what}" for where, what in seen.items() if what)
     lines = {"Linear crossings of f₁ (and over f₁(0))": crossings, "Ends of the sweep": ends}
-    return [f"{name}: {told}." for name, told in lines.items() if told]
+    return [f"{name}: {text}." for name, text in lines.items() if text]
 
 
 def _seen(end: Mapping[str, Any]) -> str:
     """Lobes and gaps at an end of a sweep."""
     lobes = [] if end["lobes"] is None else [f"{end['lobes']} lobes"]
     gaps = " and ".join(f"{1e6 * gap:.1f}" for gap in end["gaps_m"])
-    known = lobes + [f"gap {gaps} µm at ξ = 1/16 and 15/16"] * bool(gaps)
-    return ", ".join(known + [end["status"]] * (end["status"] != "ok"))
+    parts = lobes + [f"gap {gaps} µm at ξ = 1/16 and 15/16"] * bool(gaps)
+    return ", ".join(parts + [end["status"]] * (end["status"] != "ok"))
 
 
 def over_gap(row: Row) -> list[str]:
     """Speed over f1(0) and crossing, amplitude and wear over the gap, as figures have them."""
     speeds = [f"{row[name]:.3f}" for name in ("over_f1", "over_crossing")]
-    return speeds + ["" if of is None else f"{of:.2f}" for of in row["over_gap"].values()]
+    return speeds + [
+        "" if number is None else f"{number:.2f}" for number in row["over_gap"].values()
+    ]
 
 
 def csv(summary: Mapping[str, Any]) -> str:
@@ -454,7 +479,7 @@ def margins_csv(summary: Mapping[str, Any]) -> str:
         for row in scene["margins"]
     ]
     rows = (
-        [_digits(of) if isinstance(of, float) else of for of in record.values()]
+        [_digits(value) if isinstance(value, float) else value for value in record.values()]
         for record in records
     )
     return csv_text([*records[:1], *rows])
@@ -463,9 +488,9 @@ def margins_csv(summary: Mapping[str, Any]) -> str:
 def _record(scene: Mapping[str, Any], row: Row) -> dict[str, Any]:
     """Cells of a row of the CSV file by their head."""
     numbers = {
-        f"{column.name}{what} ({column.unit})": _digits(row[of].get(column.name), column.scale)
+        f"{column.name}{what} ({column.unit})": _digits(row[key].get(column.name), column.scale)
         for column in COLUMNS
-        for what, of in {"": "values", " +-": "errors", " other": "other"}.items()
+        for what, key in {"": "values", " +-": "errors", " other": "other"}.items()
     }
     return {
         "scene": scene["scene"],

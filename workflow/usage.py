@@ -29,9 +29,9 @@ def usage(begun: float) -> str:
 
     Until it has its program, a process that is started counts the memory of its parent.
     """
-    own = re.search(r"VmHWM:\s+(\d+)", STATUS.read_text() if STATUS.is_file() else "")
-    own_kB = int(own[1]) if own else getrusage(RUSAGE_SELF).ru_maxrss
-    peak_MB = max(own_kB, getrusage(RUSAGE_CHILDREN).ru_maxrss) * 1024 / 1e6
+    peak = re.search(r"VmHWM:\s+(\d+)", STATUS.read_text() if STATUS.is_file() else "")
+    kB = int(peak[1]) if peak else getrusage(RUSAGE_SELF).ru_maxrss
+    peak_MB = max(kB, getrusage(RUSAGE_CHILDREN).ru_maxrss) * 1024 / 1e6
     return f"used {cpu_time() - begun:.2f} s of CPU, {peak_MB:.0f} MB at most"
 
 
@@ -43,10 +43,18 @@ def read_usage(log: str | Path) -> dict[str, float]:
     UsageError
         When the log does not have them.
     """
-    found = list(USED.finditer(Path(log).read_text()))
-    if not found:
+    uses = list(USED.finditer(Path(log).read_text()))
+    if not uses:
         raise UsageError(
             f"{log}: holds no time and memory of its job (older version): delete it, and the job "
             "runs again"
         )
-    return {name: float(value) for name, value in found[-1].groupdict().items()}
+    return {name: float(value) for name, value in uses[-1].groupdict().items()}
+
+
+def cpu_seconds(log: str | Path, otherwise: float = 0.0) -> float:
+    """CPU time of the last job that wrote the log, s; ``otherwise`` where the log has none."""
+    try:
+        return read_usage(log)["seconds"]
+    except (OSError, UsageError):  # no log yet, or of an older version or a job that has failed
+        return otherwise

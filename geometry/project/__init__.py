@@ -25,7 +25,7 @@ from geometry.project.files import (
     write_or_keep,
     write_whole,
 )
-from geometry.project.progress import WARNING, Say, bar, counted, duration, left, silent
+from geometry.project.progress import WARNING, Say, bar, counted, duration, remaining, silent
 from geometry.project.provenance import (
     ROOT,
     Provenance,

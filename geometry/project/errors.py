@@ -104,6 +104,7 @@ def command(main: Callable[..., int | None]) -> Callable[..., int]:
 
     @wraps(main)
     def run(*arguments: Any, **named: Any) -> int:
+        """Exit code of ``main``; the faults of unusable input go to stderr."""
         try:
             return main(*arguments, **named) or 0
         except UserError as error:

@@ -49,7 +49,7 @@ def whole(path: str | Path) -> Iterator[Path]:
         When the file cannot be written: no room, no permission.
     """
     path = Path(path)
-    with _beside(path) as temporary:
+    with _temporary(path) as temporary:
         yield temporary
         seal(temporary)
         os.replace(temporary, path)
@@ -69,7 +69,7 @@ def require_writable(path: str | Path) -> None:
     WriteError
         As ``whole``.
     """
-    with _beside(Path(path)) as temporary:
+    with _temporary(Path(path)) as temporary:
         temporary.write_bytes(bytes(TRIED))
 
 
@@ -104,12 +104,12 @@ def _kept(save: Callable[[Path], None], name: str) -> Path | None:
 
 
 @contextmanager
-def _beside(path: Path) -> Iterator[Path]:
+def _temporary(path: Path) -> Iterator[Path]:
     """Temporary path in the folder of ``path``, which is removed at the end."""
     temporary = path.with_name(f".{path.stem}.{_process()}{path.suffix}")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        _remove_left(path.parent)
+        _remove_abandoned(path.parent)
         yield temporary
     except OSError as error:
         reason = error.strerror or str(error).splitlines()[0]
@@ -120,7 +120,7 @@ def _beside(path: Path) -> Iterator[Path]:
             temporary.unlink(missing_ok=True)
 
 
-def _remove_left(folder: Path) -> None:
+def _remove_abandoned(folder: Path) -> None:
     """Remove temporary files in ``folder`` of ended processes of this machine."""
     for file in folder.glob(".*"):
         name = TEMPORARY.fullmatch(file.name)

@@ -18,15 +18,15 @@ def duration(seconds: float) -> str:
     >>> duration(0.3), duration(75), duration(20_000), duration(1e6)
     ('0.3 s', '1.2 min', '5.6 h', '12 days')
     """
-    size, unit = next(of for of in UNITS if seconds >= of[0] or of == UNITS[-1])
+    size, unit = next(entry for entry in UNITS if seconds >= entry[0] or entry == UNITS[-1])
     number = seconds / size
     return f"{number:.0f} {unit}" if number >= 10 else f"{number:.2g} {unit}"
 
 
-def left(done: int, total: int, elapsed: float) -> str:
+def remaining(done: int, total: int, elapsed: float) -> str:
     """How far ``done`` of ``total`` is, with the time that is left if all cost alike.
 
-    >>> left(5, 20, 10.0), left(20, 20, 40.0)
+    >>> remaining(5, 20, 10.0), remaining(20, 20, 40.0)
     ('5 of 20, some 30 s left', '20 of 20')
     """
     rest = f", some {duration(elapsed / done * (total - done))} left" if done < total else ""
@@ -39,12 +39,12 @@ def bar(line: str) -> str:
     >>> bar("0.300 f1: ok; speed 5 of 20, some 30 s left")
     '[######..................] speed 5 of 20, some 30 s left'
     """
-    found = list(OF.finditer(line))
-    if not found:
+    counts = list(OF.finditer(line))
+    if not counts:
         return ""
-    done, total = map(int, found[-1].groups())
+    done, total = map(int, counts[-1].groups())
     full = "#" * (BAR * done // max(total, 1))
-    return f"[{full:.<{BAR}}] {line[found[-1].start() :]}"
+    return f"[{full:.<{BAR}}] {line[counts[-1].start() :]}"
 
 
 def silent(line: str) -> None:
@@ -56,4 +56,4 @@ def counted[T](items: Iterable[T], total: int, what: str, say: Say) -> Iterator[
     start = perf_counter()
     for done, item in enumerate(items, 1):
         yield item
-        say(f"{what} {left(done, total, perf_counter() - start)}")
+        say(f"{what} {remaining(done, total, perf_counter() - start)}")

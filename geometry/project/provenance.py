@@ -58,8 +58,8 @@ class Provenance:
         if self.code != code_hash(*code):
             raise ProvenanceError(f"another version of the code made it; {anew(path)}", file=path)
 
-    def require_settings(self, of_blade: dict[str, Any], path: str | Path) -> None:
-        """Refuse a file made with other settings than ``of_blade``, the present ones of the blade.
+    def require_settings(self, present: dict[str, Any], path: str | Path) -> None:
+        """Refuse a file made with other settings than ``present``, the present ones of the blade.
 
         Raises
         ------
@@ -67,10 +67,10 @@ class Provenance:
             If it was; the message names the first that differs, and how to make ``path`` anew.
         """
         for key, value in self.settings.items():
-            if key in of_blade and of_blade[key] != value:
+            if key in present and present[key] != value:
                 raise ProvenanceError(
                     f"made with {key} {json.dumps(value)}, the file of blade {self.blade} says "
-                    f"{json.dumps(of_blade[key])}; {anew(path)}",
+                    f"{json.dumps(present[key])}; {anew(path)}",
                     file=path,
                 )
 
@@ -187,34 +187,34 @@ def version() -> str:
     return pyproject["project"]["version"]
 
 
-def other_format(found: float, read: int, of_older: str) -> str:
-    """Message for a file of format ``found`` where ``read`` is needed, without the former.
+def other_format(given: float, read: int, remedy_of_older: str) -> str:
+    """Message for a file of format ``given`` where ``read`` is needed, without the former.
 
-    ``of_older``: advice for an older file.
+    ``remedy_of_older``: advice for an older file.
     """
-    remedy = "use a later Tiprub" if found > read else of_older
+    remedy = "use a later Tiprub" if given > read else remedy_of_older
     return f"this Tiprub ({version()}) reads format {read}; {remedy}"
 
 
 def require_format(
-    attributes: Mapping[str, Any], read: int, path: str | Path, of_older: str | None = None
+    attributes: Mapping[str, Any], read: int, path: str | Path, remedy_of_older: str | None = None
 ) -> None:
     """Refuse a file at ``path`` whose attribute ``format`` is not ``read``.
 
     Raises
     ------
     ProvenanceError
-        If it is not; the message names both formats, and the advice for older files (``of_older``,
+        If it is not; the message names both formats, and ``remedy_of_older`` for older files (
         by default to make them anew).
     """
-    found, of_older = attributes.get("format"), of_older or anew(path)
-    if not isinstance(found, Integral):
-        raise ProvenanceError(f"an older version made it; {of_older}", file=path)
-    if found != read:
+    given, remedy_of_older = attributes.get("format"), remedy_of_older or anew(path)
+    if not isinstance(given, Integral):
+        raise ProvenanceError(f"an older version made it; {remedy_of_older}", file=path)
+    if given != read:
         raise ProvenanceError(
-            other_format(int(found), read, of_older),
+            other_format(int(given), read, remedy_of_older),
             file=path,
             key="format",
-            value=int(found),
+            value=int(given),
             allowed=read,
         )

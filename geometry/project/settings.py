@@ -65,10 +65,10 @@ class Settings(BaseModel):
             for each fault. A fault of its base as well is reported once, for the base.
         """
         layers = read_layers(path)
-        found, faults = _checked(cls, layers[0].values)
+        settings, faults = _checked(cls, layers[0].values)
         if faults:
-            raise SettingsError(*_of_layers(cls, layers, faults))
-        return found
+            raise SettingsError(*_with_files(cls, layers, faults))
+        return settings
 
     @model_validator(mode="wrap")
     @classmethod
@@ -84,9 +84,9 @@ class Settings(BaseModel):
         for keys in self.either:
             given = [key for key in keys if getattr(self, key) is not None]
             if len(given) != 1:
-                found = " and ".join(given) or "none"
+                named = " and ".join(given) or "none"
                 raise SettingsError(
-                    f"give exactly one of {', '.join(keys)}; found {found}", allowed=keys
+                    f"give exactly one of {', '.join(keys)}; found {named}", allowed=keys
                 )
 
     @field_validator("*", mode="before")
@@ -112,13 +112,13 @@ class SettingsFile(Settings):
     @classmethod
     def _of_this_format(cls, values: Any) -> Any:
         """Check the format before the keys, which differ between formats."""
-        found = values.get("format") if isinstance(values, dict) else None
+        given = values.get("format") if isinstance(values, dict) else None
         read = cls.model_fields["format"].default
-        if type(found) in (int, float) and found != read:
+        if type(given) in (int, float) and given != read:
             raise SettingsError(
-                other_format(found, read, "CHANGELOG.md says what has changed"),
+                other_format(given, read, "CHANGELOG.md says what has changed"),
                 key="format",
-                value=found,
+                value=given,
                 allowed=read,
             )
         return values
@@ -213,10 +213,10 @@ def check_settings[Model: Settings](
     SettingsError
         When they are not valid; the message has a line for each fault.
     """
-    found, faults = _checked(model, values)
+    settings, faults = _checked(model, values)
     if faults:
         raise SettingsError(*faults).within(source)
-    return found
+    return settings
 
 
 def _checked(model: type[Settings], values: dict[str, Any]) -> tuple[Any, list[Fault]]:
@@ -227,15 +227,17 @@ def _checked(model: type[Settings], values: dict[str, Any]) -> tuple[Any, list[F
         return None, list({str(fault): fault for fault in _faults(model, error)}.values())
 
 
-def _of_layers(
+def _with_files(
     model: type[Settings], layers: Sequence[Layer], faults: Sequence[Fault]
 ) -> Iterator[Fault]:
     """``faults`` of the first of ``layers``, each with the file of the lowest base that has it."""
     in_bases = [set(map(str, _checked(model, base.values)[1])) for base in layers[1:]]
     for fault in faults:
         below = zip(layers, [*in_bases, set()], strict=True)
-        of = next(layer for layer, of_base in below if str(fault) not in of_base)
-        yield fault._replace(file=of.source, line=_line(of.lines, tuple(fault.key.split("."))))
+        layer = next(layer for layer, base_faults in below if str(fault) not in base_faults)
+        yield fault._replace(
+            file=layer.source, line=_line(layer.lines, tuple(fault.key.split(".")))
+        )
 
 
 def _line(lines: dict[Keys, int], keys: Keys) -> int | None:
@@ -246,10 +248,10 @@ def _line(lines: dict[Keys, int], keys: Keys) -> int | None:
 
 def _faults(model: type[Settings], error: ValidationError) -> Iterator[Fault]:
     """Faults that pydantic finds in a model, without missing keys that were given, but misspelt."""
-    found = error.errors()
-    unknown = [fault["loc"][0] for fault in found if fault["type"] == "extra_forbidden"]
+    errors = error.errors()
+    unknown = [fault["loc"][0] for fault in errors if fault["type"] == "extra_forbidden"]
     misspelt = {near for key in unknown for near in _nearest(model, key)}
-    for fault in found:
+    for fault in errors:
         if fault["type"] != "missing" or fault["loc"][0] not in misspelt:
             yield from _described(model, fault)
 
@@ -277,9 +279,9 @@ def _unknown(model: type[Settings], key: str) -> Fault:
     """The fault of a key that the model does not have, or no longer."""
     if key in model.replaced:
         return Fault(f"no longer a key; {model.replaced[key]}", key)
-    near, known = _nearest(model, key), [*model.model_fields]
-    hint = f"did you mean '{near[0]}'?" if near else f"known keys: {', '.join(known)}"
-    return Fault(f"unknown key; {hint}", key, allowed=near or known)
+    near, keys = _nearest(model, key), [*model.model_fields]
+    hint = f"did you mean '{near[0]}'?" if near else f"known keys: {', '.join(keys)}"
+    return Fault(f"unknown key; {hint}", key, allowed=near or keys)
 
 
 def _nearest(model: type[Settings], key: str) -> list[str]:

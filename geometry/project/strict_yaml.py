@@ -76,6 +76,7 @@ class _Loader(yaml.SafeLoader):
     values = 0
 
     def compose_node(self, parent: Any, index: Any) -> yaml.Node:
+        """The next node, unless it is too deep, one too many, or has a tag."""
         event = self.peek_event()
         self.depth, self.values = self.depth + 1, self.values + 1
         _require_small(self.depth, self.values, event.start_mark)

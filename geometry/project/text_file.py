@@ -54,8 +54,8 @@ def read_text(path: str | Path, most: int | None = MOST_BYTES, errors: str = "st
         return data.decode("utf-8-sig", errors)
     except UnicodeDecodeError as error:
         wide = data.startswith((b"\xff\xfe", b"\xfe\xff"))
-        at = f"byte {error.start + 1} is none" if not wide else "it is UTF-16"
-        raise SettingsError(f"is no UTF-8 text ({at}): save it as UTF-8") from None
+        place = f"byte {error.start + 1} is none" if not wide else "it is UTF-16"
+        raise SettingsError(f"is no UTF-8 text ({place}): save it as UTF-8") from None
 
 
 def number(text: str) -> float:
@@ -88,16 +88,16 @@ def csv_rows(path: str | Path) -> Iterator[tuple[int, list[str]]]:
         When the file cannot be read, a quote is not closed in its line, or cells are separated by
         semicolons or tabs.
     """
-    for at, line in enumerate(read_text(path).splitlines(), 1):
+    for number, line in enumerate(read_text(path).splitlines(), 1):
         if not line.strip() or line.lstrip()[0] == "#":
             continue
         try:
             (cells,) = csv.reader([line], skipinitialspace=True, strict=True)
         except (csv.Error, ValueError) as error:
-            raise SettingsError(f"is no line of a CSV file ({error})", line=at) from None
+            raise SettingsError(f"is no line of a CSV file ({error})", line=number) from None
         if len(cells) == 1 and re.search(r"[^{\[].*[;\t]", line):
-            raise SettingsError("needs commas between its cells, not ; or tabs", line=at)
-        yield at, [cell.strip() for cell in cells]
+            raise SettingsError("needs commas between its cells, not ; or tabs", line=number)
+        yield number, [cell.strip() for cell in cells]
 
 
 def numbers(cells: Sequence[str], columns: Sequence[str], line: int) -> list[float]:

@@ -205,9 +205,11 @@ def linked_into(kernel: Dispatcher) -> Iterator[None]:
     codegen = kernel.targetctx.codegen()  # pyright: ignore[reportAttributeAccessIssue]  of a CPU
 
     def library(of: JITCPUCodegen, name: str) -> JITCodeLibrary:
+        """Library of a function: whole for the kernel alone."""
         return (JITCodeLibrary if name == kernel.py_func.__qualname__ else _LinkOnly)(of, name)
 
     def set_env(name: str, env: object) -> None:
+        """Set the environment of a function whose module the process has."""
         if codegen._engine.get_global_value_address(name):  # else of a module that is linked only
             JITCPUCodegen.set_env(codegen, name, env)
 

@@ -173,6 +173,7 @@ def quick_times(runs: Iterable[Run], coarser: Coarser) -> dict[str, float]:
     found = [(run.errors, from_companion(run, coarser, QUICK_STEP_RATIO)) for run in runs]
 
     def times(name: str) -> float:
+        """Geometric mean of the ratios of one observable, ``TIMES`` at least."""
         pairs = ((d[name], errors[name]) for errors, d in found)
         ratios = [d / error for d, error in pairs if 0 < d < inf and 0 < error < inf]
         return max(geometric_mean(ratios), TIMES) if ratios else TIMES

@@ -43,6 +43,7 @@ def from_csv(model: type[Settings], x: Columns, y: Columns) -> BeforeValidator:
     """
 
     def read(value: Any) -> Any:
+        """The model in the file at a path; any other value as it is."""
         if not isinstance(value, str | Path):
             return value
         try:
@@ -73,6 +74,7 @@ def ascending(says: str, first: float = inf, last: float = inf) -> AfterValidato
     """
 
     def check(values: Sequence[float]) -> Sequence[float]:
+        """The values, if they ascend within the bounds."""
         between = 0 <= min(values, default=0) <= first and max(values, default=0) <= last
         if not (between and (np.diff(values) > 0).all()):
             raise SettingsError(f"should ascend{says}", value=values)

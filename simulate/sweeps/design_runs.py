@@ -194,6 +194,7 @@ class Engine:
         speeds, gap = runs["speed_over_f1"], scene.clearance.gaps(LEADING, self.rom.span)
 
         def along(k: int) -> NDArray[np.float64]:
+            """Amplitude (speeds,) along engine order ``k``, gaps."""
             return runs["amplitudes"][:, self.orders.index(k)].astype(float) / float(gap)
 
         return lambda k: peak_among(speeds, along, k, self.crossings[k], scene.contact.along)
@@ -278,7 +279,7 @@ def march_block(
         for count, (key, i) in enumerate(once.items(), 1):
             new[key], left = engine.march_row(engine.scenes[i], left=left)
             done[key] = new[key]
-            far = progress.left(count, len(once), monotonic() - begun)
+            far = progress.remaining(count, len(once), monotonic() - begun)
             report(f"{_line(i + 1, done[key])}; design {far}")
             if monotonic() - saved > SAVED_EVERY:
                 save_part(folder, new, engine.orders)

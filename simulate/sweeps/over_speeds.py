@@ -93,7 +93,7 @@ def at_speeds(
     runs, last, begun = [], None, perf_counter()
     for done, case in enumerate(cases, 1):
         run = march_one(replace(case, left=last or case.left), choice)
-        far = progress.left(done, len(cases), perf_counter() - begun)
+        far = progress.remaining(done, len(cases), perf_counter() - begun)
         report(f"{run.line}; speed {far}")
         runs.append(run)
         last = run.outcome.left if in_turn else None

@@ -105,6 +105,7 @@ def crossing_of(f: Callable[[float], float], k: int, lowest: float, highest: flo
     from scipy.optimize import brentq  # a slow import, which many jobs do not need
 
     def above(speed: float) -> float:
+        """How far f is above the line k speed."""
         return f(speed) - k * speed
 
     if not above(highest) < 0 <= above(lowest):

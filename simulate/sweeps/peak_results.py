@@ -73,7 +73,7 @@ def results(
             case = case_of(runs, scene, rom, peak)
             peak = _tried(peak, replace(case, left=left_at(case.setup.Omega)), doubt)
         peak = replace(peak, seconds=process_time() - begun)
-        far = progress.left(done, len(peaks), perf_counter() - start_of_all)
+        far = progress.remaining(done, len(peaks), perf_counter() - start_of_all)
         report(f"{line(peak)}: {peak.runs} runs, {peak.seconds:.2f} s; peak {far}")
         found.append(peak)
     return found

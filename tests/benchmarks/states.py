@@ -5,7 +5,7 @@
 
 Each state is exported to a folder of its own and runs with this environment. The first turn
 compiles, and the best of the others counts, so that a busy machine troubles both alike. The lines
-are added to tests/benchmarks/states.csv: commit what a release or a faster kernel gained.
+are added to states.csv beside this file: commit what a release or a faster kernel gained.
 """
 
 import argparse

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from geometry.project import counted, duration, left
+from geometry.project import counted, duration, remaining
 
 
 def test_span_radius_and_mass_are_those_of_the_blade(coarse_blade, coarse_mesh):
@@ -27,5 +27,5 @@ def test_progress_says_how_far_and_how_long():
     said = []
     assert list(counted("abc", 3, "speed", said.append)) == ["a", "b", "c"]
     assert said[0].startswith("speed 1 of 3, some ") and said[2] == "speed 3 of 3"
-    assert left(1, 4, 60.0) == "1 of 4, some 3 min left"
+    assert remaining(1, 4, 60.0) == "1 of 4, some 3 min left"
     assert [duration(s) for s in (0.25, 59, 7200, 1e6)] == ["0.25 s", "59 s", "2 h", "12 days"]

@@ -7,7 +7,7 @@ from refused import refused
 
 from geometry.profile import profile_at
 from geometry.project import MeshError
-from geometry.tip import Tip, cartesian
+from geometry.tip import DevelopedTip, cartesian
 
 R = 0.5624
 FRACTIONS = np.linspace(0, 1, 2000)
@@ -41,7 +41,7 @@ POLYLINE = 1e-9
 
 def camber_line(outline):
     """Camber line (101, 3), m, x, y, z."""
-    return cartesian(Tip.of(outline).camber_line())
+    return cartesian(DevelopedTip.of(outline).camber_line())
 
 
 @pytest.mark.parametrize(
@@ -65,7 +65,7 @@ def test_the_camber_line_is_that_of_the_closed_form_including_both_ends(
 
 def test_the_chord_fraction_is_zero_and_one_at_the_extremes_and_the_sections_between(profile):
     outline = outline_of(profile)
-    tip = Tip.of(outline)
+    tip = DevelopedTip.of(outline)
     xi = tip.xi(outline)
     assert (xi.min(), xi.max()) == pytest.approx((0, 1), abs=4 * np.finfo(float).eps)
     for sign in (-1, 0, 1):
@@ -77,14 +77,14 @@ def test_the_chord_fraction_is_zero_and_one_at_the_extremes_and_the_sections_bet
 
 def test_developed_tip_keeps_lengths_along_the_chord_and_ahead_of_it(profile):
     """Heights are over the chord: its ends are at one height, the hollow side's ahead."""
-    tip = Tip.of(outline_of(profile))
+    tip = DevelopedTip.of(outline_of(profile))
     along, ahead = tip.developed(on_cylinder(profile.place([0, 1, 0.5], [0, 0, -1e-3]))).T
     assert along[1] - along[0] == pytest.approx(profile.chord, rel=1e-8)
     assert ahead - ahead[0] == pytest.approx([0, 0, 1e-3], abs=1e-9)
 
 
 def pressure_side(outline, xi=MIDDLES):
-    return cartesian(Tip.of(outline).pressure_side(xi))
+    return cartesian(DevelopedTip.of(outline).pressure_side(xi))
 
 
 def test_pressure_side_is_the_side_ahead(profile):
@@ -98,7 +98,9 @@ def test_order_and_start_of_the_outline_do_not_matter(profile):
     expected = camber_line(outline)
     for other in (outline[::-1], np.roll(outline, 777, axis=0)):
         np.testing.assert_allclose(camber_line(other), expected, atol=1e-13)
-        np.testing.assert_allclose(Tip.of(other).xi(outline), Tip.of(outline).xi(outline))
+        np.testing.assert_allclose(
+            DevelopedTip.of(other).xi(outline), DevelopedTip.of(outline).xi(outline)
+        )
 
 
 @pytest.mark.parametrize("angle", [0.3, 3.1, -2.0])
@@ -110,8 +112,8 @@ def test_points_turn_with_the_tip(profile, angle):
     for points in (camber_line, pressure_side):
         found = points(outline @ turn.T)
         np.testing.assert_allclose(found, points(outline) @ turn.T, atol=1e-13)
-    xi = Tip.of(outline @ turn.T).xi(outline @ turn.T)
-    np.testing.assert_allclose(xi, Tip.of(outline).xi(outline), atol=1e-11)
+    xi = DevelopedTip.of(outline @ turn.T).xi(outline @ turn.T)
+    np.testing.assert_allclose(xi, DevelopedTip.of(outline).xi(outline), atol=1e-11)
 
 
 def test_a_mirror_swaps_the_sides(profile):
@@ -128,12 +130,12 @@ def test_camber_height_is_the_mean_over_the_stations(profile):
     """Of the parabola over the chord between the first and the last; measured 1e-7 off."""
     xi = (np.arange(20) + 0.5) / 20
     w = 4 * xi * (1 - xi)
-    height = Tip.of(outline_of(profile)).camber_height()
+    height = DevelopedTip.of(outline_of(profile)).camber_height()
     assert height == pytest.approx(0.03 * (w - w[0]).mean() / 0.95, rel=1e-6)
     half_turn, mirror = np.diag([1, -1, -1]), np.diag([1, 1, -1])
-    turned = Tip.of(outline_of(profile) @ half_turn).camber_height()
+    turned = DevelopedTip.of(outline_of(profile) @ half_turn).camber_height()
     assert turned == pytest.approx(-height, rel=1e-10)
-    assert Tip.of(outline_of(profile) @ mirror).camber_height() == pytest.approx(height)
+    assert DevelopedTip.of(outline_of(profile) @ mirror).camber_height() == pytest.approx(height)
 
 
 def test_round_edges_on_a_straight_camber_line():
@@ -148,13 +150,15 @@ def test_round_edges_on_a_straight_camber_line():
     along = (2 * PLACES - 1) * half
     expected = on_cylinder(np.column_stack([np.zeros(101), -s * along, c * along]))
     np.testing.assert_allclose(camber_line(around), expected, atol=1e-12)
-    assert Tip.of(around).camber_height() == pytest.approx(0, abs=1e-10)  # has no hollow side
+    assert DevelopedTip.of(around).camber_height() == pytest.approx(
+        0, abs=1e-10
+    )  # has no hollow side
 
 
 def test_the_radius_is_interpolated_on_a_conical_tip(profile):
     outline = outline_of(profile)
     cone = outline * (1 + outline[:, 2:]) ** [1, 1, 0]
-    tip = Tip.of(cone)
+    tip = DevelopedTip.of(cone)
     for r, _, z in (*tip.camber_line(), *tip.pressure_side(MIDDLES)):
         assert r == pytest.approx(R * (1 + z), abs=POLYLINE)
 
@@ -166,4 +170,4 @@ def test_outline_that_folds_over_its_chord_is_refused():
         [r * np.column_stack([np.sin(a), np.cos(a)]) for r, a in ((0.03, t), (0.02, t[::-1]))]
     )
     points = np.column_stack([np.full(len(ring), R), ring])
-    refused(MeshError, Tip.of(points).camber_line, match="meets 4 sides")
+    refused(MeshError, DevelopedTip.of(points).camber_line, match="meets 4 sides")

@@ -14,9 +14,9 @@ from simulate.scene import LEADING, Scene
 from simulate.scene.design import Design
 from simulate.sweeps.design_runs import Engine, march_block, row_table
 from workflow.identify import measured, numbers, points, report, shares
-from workflow.identify.fits import of_prior, off_medoid
+from workflow.identify.fits import off_medoid, prior_numbers
 from workflow.identify.likelihood import FITS, SHIFTS, WITH_ORDER
-from workflow.identify.measured import at, cases
+from workflow.identify.measured import cases, scenes_at
 from workflow.identify.priors import Priors
 from workflow.identify.shares import JUDGED, verdicts
 from workflow.identify.steps import steps_per_round
@@ -121,7 +121,7 @@ def test_the_answer_tells_what_meets_the_shifts_and_which_K_they_prefer():
     loose = fit([0.5, -0.2], 0.4, 0.01, 2, 1, 2, 30)
     taken = fit([-1.3, 0.1], 0.2, 0.04, 0, 0.5, 4, 250)
     fits = {of.name: taken if of.K == 4.55 else loose for of in FITS}
-    text = report.answer({"fits": fits, "prior": of_prior(PRIORS)}).replace("\n", " ")
+    text = report.answer({"fits": fits, "prior": prior_numbers(PRIORS)}).replace("\n", " ")
     told = (
         "Of 2 settings", ", 2 with K = 0.45", "(1 of these", ", 0 with K = 4.55", "is 1.3 half",
         ", and 2 ", "K = 0.45 by 2.0 to 1", "K = 4.55 is preferred by 4.0 to 1", "30 and 250",
@@ -172,7 +172,7 @@ def test_stiff_coatings_have_more_steps_at_draws():
 def test_scenes_at_a_point_have_its_parameters(chain, coarse_rom):
     base = short("identify")
     (point, *_) = numbers._scenes(chain.tables, base)
-    here = at({part: short(name) for part, name in SCENES.items()}, point, coarse_rom.span)
+    here = scenes_at({part: short(name) for part, name in SCENES.items()}, point, coarse_rom.span)
     values = chain.points[0]["settings"]
     assert here["e10"].liner.law.unit_Pa == values["liner.law.unit_Pa"][0]
     assert (here["e10"].liner.law.E, here["e10"].liner.law.K) == (10.0, 4.55)

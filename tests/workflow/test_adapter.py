@@ -137,7 +137,7 @@ def test_a_place_that_cannot_be_written_is_refused_before_the_job_begins(job, tm
 
 TELLING = """
 from geometry.project import WARNING
-tell.now("what was meshed")
+tell.report("what was meshed")
 tell("compiled")
 tell("loaded")
 for done in range(3):

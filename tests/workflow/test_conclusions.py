@@ -5,7 +5,7 @@ import re
 import pytest
 from made_sweeps import ROOT
 
-from workflow.identify.fits import of_prior
+from workflow.identify.fits import prior_numbers
 from workflow.identify.likelihood import K_OF_E1, WITH_ORDER, Fit
 from workflow.identify.priors import Priors
 from workflow.paper import conclusions
@@ -19,7 +19,7 @@ RANGES = {
 }
 FOUND = {
     "served": "printed",
-    "prior": of_prior(Priors.load(ROOT / "workflow/identify/priors.yaml")),
+    "prior": prior_numbers(Priors.load(ROOT / "workflow/identify/priors.yaml")),
     "fits": {
         Fit(K_OF_E1[1], "printed").name: {WITH_ORDER: {"ranges": RANGES, "four_places": 0.75}}
     },

@@ -13,7 +13,7 @@ from simulate.sweeps.closing_in import sweep
 from tests.simulate.scenes import scene
 from workflow.experiment import engine, picture, table
 from workflow.experiment.numbers import peaks
-from workflow.experiment.plan import Case, cases
+from workflow.experiment.plan import PlannedRow, cases
 
 SCENE = scene(
     speeds={"over_f1": [0.33]},
@@ -58,7 +58,7 @@ def test_every_row_is_run_on_every_scene_with_its_own_values(planned):
         integrator__steps_per_round=2 * steps
     )
     assert of["fine", "one"].file("rom") == "results/coarse/rom-rt.nc"
-    assert all(Case.model_validate(case.model_dump(mode="json")) == case for case in found)
+    assert all(PlannedRow.model_validate(case.model_dump(mode="json")) == case for case in found)
 
 
 def test_lists_are_combined_and_scenes_may_be_written_in_place(planned):
@@ -136,7 +136,7 @@ def one(row, function="workflow.experiment.numbers:peaks", against=None, **chang
     """A case on the coarse blade."""
     of = {"function": function, "against": against, "model": None, "needs": ["rom"]}
     of |= {"group": "", "label": "only", "names": (row,), "directions": "r"}
-    return Case(scene=SCENE.but(**changes), **of)
+    return PlannedRow(scene=SCENE.but(**changes), **of)
 
 
 @pytest.fixture
@@ -156,7 +156,7 @@ def on_coarse(coarse_rom, monkeypatch):
 
 def march(rows, folder, block=0, blocks=1):
     """A block of these rows, as a job marches them."""
-    planned = [Case.model_validate(row.model_dump(mode="json")) for row in rows]
+    planned = [PlannedRow.model_validate(row.model_dump(mode="json")) for row in rows]
     return engine.march_block(planned, folder, block, blocks)
 
 

@@ -23,7 +23,7 @@ from simulate.sweeps.peak_results import CROSSED
 from workflow.explore import page as pack
 from workflow.explore.blade import moving
 from workflow.explore.page import html
-from workflow.explore.results import ANGLES, ORDERS, around, arrays, facts, log10, told
+from workflow.explore.results import ANGLES, ORDERS, around, arrays, facts, log10, plain
 from workflow.figures.response import Response
 from workflow.stress import motion
 
@@ -190,7 +190,7 @@ def test_facts_are_those_of_the_sweep(response):
 
 
 def test_numbers_that_are_not_known_are_told_as_such():
-    assert told([1.5, np.nan, np.inf]) == [1.5, None, "ended differently"]
+    assert plain([1.5, np.nan, np.inf]) == [1.5, None, "ended differently"]
 
 
 def test_motion_and_stress_are_those_of_the_whole_blade(

@@ -22,6 +22,7 @@ from geometry.shape import session
 from simulate.scene import Scene
 from simulate.sweeps.peak import Peak
 from workflow import check, new
+from workflow.usage import cpu_seconds
 
 PAGE = ROOT / "workflow/own-blade.md"
 # the page's blade on the coarse mesh of the tests
@@ -120,11 +121,11 @@ def test_the_table_of_a_check_has_units_of_engines_and_changes_in_percent():
 
 def test_the_time_of_a_job_is_what_its_log_says(tmp_path):
     log = tmp_path / "reduce-r.log"
-    assert check._seconds(log) == 0.0
+    assert cpu_seconds(log) == 0.0
     log.write_text("as an older version wrote it\n")
-    assert check._seconds(log) == 0.0
+    assert cpu_seconds(log) == 0.0
     log.write_text("used 15.25 s of CPU, 300 MB at most\n")
-    assert check._seconds(log) == 15.25
+    assert cpu_seconds(log) == 15.25
 
 
 @pytest.fixture

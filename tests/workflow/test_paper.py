@@ -313,7 +313,7 @@ def test_without_peaks_an_edition_has_neither_table_nor_growth(table):
     """Where the paper's worst coating alone has none, it has the table."""
     rows = [{"names": ["one"], "scene": "grid", "numbers": case} for case in table["cases"]]
     rows.append({"names": ["one"], "scene": "rigid", "numbers": peak_at(1.2, 0.37)})
-    grid.at(table, 10.0, 4.55)["peaks"]["4"] = None
+    grid.coating_of(table, 10.0, 4.55)["peaks"]["4"] = None
     assert editions.numbers_of(rows, editions.growth_of(rows))["one"].keys() == {"grid"}
     for case in table["cases"]:
         case["peaks"]["4"] = None

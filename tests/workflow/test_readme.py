@@ -22,7 +22,7 @@ from workflow.readme import (
     COMPUTED,
     PAGES,
     BlockError,
-    found,
+    coatings,
     generated,
     read_pages,
     require_blocks,
@@ -135,7 +135,7 @@ def test_found_has_both_coatings_at_both_orders_beside_the_papers_shifts():
     told = {"over_crossing": 1.1, "over_gap": {"amplitude": 2, "wear": 0.5}}
     rows = [{"k": k, "over_f1": k / 10} | told for k in (4, 5, 6)]
     scenes = [{"scene": f"paper-{part}", "rows": rows} for part in ("e1", "e10", "other")]
-    first, *_, last = shown = found({"scenes": scenes}).splitlines()[2:]
+    first, *_, last = shown = coatings({"scenes": scenes}).splitlines()[2:]
     assert len(shown) == 4
     assert first == "| E = 1 | 4 | 0.400 | 1.100 | 1.129 | 2.00 | 0.50 |"
     assert last == "| E = 10 | 6 | 0.600 | 1.100 | 1.176 | 2.00 | 0.50 |"

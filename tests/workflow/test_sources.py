@@ -124,7 +124,7 @@ def write_jobs():
     found = {rule.name: None for rule in workflow.rules if rule.script}
     for job in workflow.dag.jobs:
         if job.rule.script:
-            held = {*job.params.get("given", {}), "files", "names", "tell", "now"}
+            held = {*job.params.get("given", {}), "files", "names", "tell", "report"}
             for part in (job.input, job.output, job.params):
                 held |= dict(part.items()).keys()
             code = list(map(str, job.input.code))

@@ -249,7 +249,7 @@ def runs():
 def test_the_error_of_the_critical_speed_is_that_of_the_sweep_over_the_peak():
     at_peak = row("a", 1.0, 0.0, on="peak") | {"numbers": {"errors": {"Omega_c": 0.02}}}
     rows = [row("a", 0.1, 0.3, on="resonance"), row("a", 0.1, 0.3), at_peak]
-    at_resonance, elsewhere = levels.of_group(rows, "front")["Omega_c"]
+    at_resonance, elsewhere = levels.group_rows(rows, "front")["Omega_c"]
     assert at_resonance == 0.02 and np.isnan(elsewhere)
 
 
@@ -305,7 +305,7 @@ def test_the_tables_have_the_errors_of_the_study(runs):
         row("15 speeds", 3.25, 0.0, on="sweep", group="speeds") | {"numbers": sweep_of},
         row("closest", 9.0, 0.0, on="sweep", group="speeds") | {"numbers": {"marches": 99}},
     ]
-    draft, *_, floor = cells(trade_table.of_levels(rows))
+    draft, *_, floor = cells(trade_table.by_level(rows))
     assert draft[2:8] == ["9 %", "-", "9 %", "0", "9 %", "9 %"]
     assert "2039 rods (153911 tilted)" in draft[1]
     assert floor[2:8] == ["0.2 %", "-", "0.2 %", "0", "0.2 %", "0.2 %"]

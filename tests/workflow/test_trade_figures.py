@@ -10,7 +10,7 @@ from workflow.study.levels import (
     OBSERVABLES,
     OTHER_SCHEME,
     SCENES,
-    of_group,
+    group_rows,
     uncertainty,
 )
 
@@ -86,7 +86,7 @@ def test_where_one_of_four_errors_is_unknown_none_is_drawn():
     unsure = trade.with_floor(uncertainty(rows))
     assert unsure.at["calm", "wear"] == 30 and np.isnan(unsure.at["calm", "worst"])
     assert unsure.at[trade.FLOOR, "worst"] == trade.UNKNOWN
-    drawn = trade.shown(of_group(rows, "finest"), unsure)
+    drawn = trade.shown(group_rows(rows, "finest"), unsure)
     assert np.isnan(drawn["worst"].item()) and drawn["wear"].item() == 30
 
 

@@ -33,11 +33,12 @@ from geometry.project import (
     write_json,
 )
 from rom.model import Rom
-from simulate.errors.run import Case as Prepared, Run
+from simulate.errors.run import Case, Run
 from simulate.marching import Setup, check_scene, make_kernel, prepare
 from simulate.scene import Scene
 from simulate.sweeps.closing_in import sweep
-from workflow.experiment.plan import Case
+from workflow.experiment.plan import PlannedRow
+from workflow.experiment.row import ExperimentRow
 
 TURNS, LONG = 3, 1.0  # most times a run is computed, and CPU time, s, after which no more
 
@@ -51,7 +52,7 @@ class Marched:
     Functions of numbers get those of these attributes that are their arguments, and of ``files``.
     """
 
-    case: Case
+    case: PlannedRow
     rom: Rom | None  # None where it needs none
     files: Mapping[str, str]  # further files of its model, by name
     reference: "Marched | None"  # the case with which it is compared
@@ -89,7 +90,7 @@ class Marched:
     @cached_property
     def single(self) -> Run:
         """The run at its first speed alone, repeated while it is short, for its CPU time."""
-        march = Prepared(self.scene, self.rom, self.setup).march
+        march = Case(self.scene, self.rom, self.setup).march
         run = self._timed(march)
         while len(self.seconds) < TURNS and sum(self.seconds) < LONG:
             run = self._timed(march)
@@ -98,19 +99,19 @@ class Marched:
     @cached_property
     def key(self) -> str:
         """Hash of all that decides its numbers."""
-        functions = [of for of in (self.case.function, self.case.model) if of]
+        functions = [function for function in (self.case.function, self.case.model) if function]
         return fingerprint(
             [
                 self.scene.model_dump_json(),
                 self.rom and self.rom.provenance.hash,
                 functions,
-                code_hash(__name__, *(of.partition(":")[0] for of in functions)),
+                code_hash(__name__, *(function.partition(":")[0] for function in functions)),
                 {name: _hash(file) for name, file in self.files.items()},
                 self.reference and self.reference.key,
             ]
         )
 
-    def row(self, folder: str | Path) -> dict[str, Any]:
+    def row(self, folder: str | Path) -> ExperimentRow:
         """Description of the row, its numbers and their CPU time.
 
         These are in a file of ``folder``; where no whole one is there, the row is computed.
@@ -142,22 +143,25 @@ class Marched:
         return about | read_json(file)
 
 
-def _called(name: str, of: Marched) -> Any:
+def _called(name: str, marched: Marched) -> Any:
     """Result of a function whose arguments are attributes and files of a case."""
     module, _, function = name.partition(":")
     call = getattr(import_module(module), function)
     return call(
-        **{asked: of.files.get(asked) or getattr(of, asked) for asked in signature(call).parameters}
+        **{
+            asked: marched.files.get(asked) or getattr(marched, asked)
+            for asked in signature(call).parameters
+        }
     )
 
 
 def march_block(
-    cases: Sequence[Case],
+    cases: Sequence[PlannedRow],
     folder: str | Path,
     block: str | int = 0,
     blocks: int = 1,
     tell: Say = silent,
-) -> list[dict[str, Any]]:
+) -> list[ExperimentRow]:
     """Rows of every ``blocks``-th case from ``block`` on; those in files of ``folder`` are read.
 
     Cases that are compared with the same one follow one another, so that it is computed once.
@@ -171,18 +175,20 @@ def march_block(
 
     @lru_cache(maxsize=1)
     def reference(label: str, row: str) -> Marched:
+        """Row with which others are compared, computed once for all that follow."""
         return on_model(named[label, row])
 
-    def on_model(case: Case) -> Marched:
+    def on_model(case: PlannedRow) -> Marched:
+        """The row on its model, with the row with which it is compared."""
         files = {name: case.file(name) for name in case.needs if name != "rom"}
         rom = model(case.file("rom")) if "rom" in case.needs else None
         alone = case.against in (None, case.row)
         marched = Marched(case, rom, files, None if alone else reference(case.label, case.against))
         return replace(marched, rom=_called(case.model, marched)) if case.model else marched
 
-    own, rows, begun = cases[int(block) :: blocks], {}, monotonic()
-    for i in sorted(range(len(own)), key=lambda i: (own[i].label, own[i].against or "")):
-        rows[i] = on_model(own[i]).row(folder)
-        far = progress.left(len(rows), len(own), monotonic() - begun)
-        tell(f"{own[i].row}, {own[i].label}: {rows[i]['cpu_s']} s; row {far}")
-    return [rows[i] for i in range(len(own))]
+    chosen, rows, begun = cases[int(block) :: blocks], {}, monotonic()
+    for i in sorted(range(len(chosen)), key=lambda i: (chosen[i].label, chosen[i].against or "")):
+        rows[i] = on_model(chosen[i]).row(folder)
+        ahead = progress.remaining(len(rows), len(chosen), monotonic() - begun)
+        tell(f"{chosen[i].row}, {chosen[i].label}: {rows[i]['cpu_s']} s; row {ahead}")
+    return [rows[i] for i in range(len(chosen))]

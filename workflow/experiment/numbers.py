@@ -24,19 +24,23 @@ def peaks(runs: xr.Dataset, rom: Rom) -> dict[str, Any]:
     """
 
     def over_speeds(k: int | None = None) -> dict[str, Any]:
-        known = {"speed": runs["speed_over_f1"].values}
+        """Arrays (speeds,) by name; the amplitude is along ``k``, or the largest of all orders."""
+        along = {"speed": runs["speed_over_f1"].values}
         if "spectrum" in runs:
-            known["amplitude"] = along_order(runs, k)
+            along["amplitude"] = along_order(runs, k)
         if "wear" in runs:
-            known["wear"] = leading_wear(runs).max(axis=1) / leading_gap(runs)
-        return known
+            along["wear"] = leading_wear(runs).max(axis=1) / leading_gap(runs)
+        return along
 
-    def at(index: int, k: int | None = None) -> dict[str, float]:
+    def values_at(index: int, k: int | None = None) -> dict[str, float]:
+        """The same at one speed."""
         return {name: float(values[index]) for name, values in over_speeds(k).items()}
 
-    found: dict[str, Any] = {**statuses(runs)}
+    numbers: dict[str, Any] = {**statuses(runs)}
     _, *responses = over_speeds().values()
     if responses:
         has_result = np.isfinite(responses[0]).any()
-        found["largest"] = at(int(np.nanargmax(responses[0]))) if has_result else {}
-    return found | {f"k = {k}": at(peak.index, k) for k, peak in reported(runs, rom).items()}
+        numbers["largest"] = values_at(int(np.nanargmax(responses[0]))) if has_result else {}
+    return numbers | {
+        f"k = {k}": values_at(peak.index, k) for k, peak in reported(runs, rom).items()
+    }

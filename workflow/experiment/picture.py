@@ -7,11 +7,12 @@ from matplotlib.figure import Figure
 
 from geometry.project import UserError
 from simulate.scene.design import value_at
+from workflow.experiment.row import ExperimentRow
 from workflow.experiment.table import frame
 from workflow.figures import cells, lines
 
 
-def draw(rows: Sequence[Mapping[str, Any]], picture: Mapping[str, Any]) -> Figure:
+def draw(rows: Sequence[ExperimentRow], picture: Mapping[str, Any]) -> Figure:
     """Draw the rows of an experiment; ``picture``: values of ``plan.Picture``, those that are set.
 
     Raises
@@ -19,14 +20,16 @@ def draw(rows: Sequence[Mapping[str, Any]], picture: Mapping[str, Any]) -> Figur
     UserError
         When it names no column of the table, and no key of the scenes.
     """
-    found = frame(rows)
-    look = {key: of for key, of in picture.items() if key != "kind"}
-    named = [of for key, of in look.items() if key not in ("log", "labels")]
-    for name in [name for of in named for name in ([of] if isinstance(of, str) else of) if name]:
-        if name not in found:
-            found[name] = [value_at(row["settings"], name) for row in rows]
-        if not found[name].notna().any():
-            known = ", ".join(found.columns.drop(name))
-            raise UserError(f"is no column; there are {known}", key="picture", value=name)
+    table = frame(rows)
+    look = {key: value for key, value in picture.items() if key != "kind"}
+    named = [value for key, value in look.items() if key not in ("log", "labels")]
+    for name in [
+        name for names in named for name in ([names] if isinstance(names, str) else names) if name
+    ]:
+        if name not in table:
+            table[name] = [value_at(row["settings"], name) for row in rows]
+        if not table[name].notna().any():
+            columns = ", ".join(table.columns.drop(name))
+            raise UserError(f"is no column; there are {columns}", key="picture", value=name)
     draw_kind = {"lines": lines.draw, "cells": cells.draw}[picture["kind"]]
-    return draw_kind(found, **look)
+    return draw_kind(table, **look)

@@ -65,10 +65,12 @@ class Group(Settings):
     )
     against: str | None = Field(default=None, description="Row to compare the others with")
 
-    def combined(self, at: Keys, lists: Mapping[str, Rows]) -> Iterator[tuple[list[Keys], list]]:
-        """Places, in a file that has the group ``at`` one, and changes of each row."""
-        of = [(("lists", name), lists[name]) for name in self.each] or [((*at, "rows"), self.rows)]
-        for items in product(*([(where, *row) for row in rows.items()] for where, rows in of)):
+    def combined(self, place: Keys, lists: Mapping[str, Rows]) -> Iterator[tuple[list[Keys], list]]:
+        """Places, in a file that has the group ``place`` one, and changes of each row."""
+        choices = [(("lists", name), lists[name]) for name in self.each] or [
+            ((*place, "rows"), self.rows)
+        ]
+        for items in product(*([(where, *row) for row in rows.items()] for where, rows in choices)):
             yield [(*where, name) for where, name, _ in items], [changes for *_, changes in items]
 
 
@@ -120,19 +122,19 @@ class Experiment(SettingsFile, Group):
 
     @field_validator("of", mode="before")
     @classmethod
-    def _names_are_labels(cls, of: Any) -> Any:
-        return {name: name for name in of} if isinstance(of, list) else of
+    def _names_are_labels(cls, scenes: Any) -> Any:
+        return {name: name for name in scenes} if isinstance(scenes, list) else scenes
 
     @checked
     def _names_are_there(self) -> None:
         groups, by_label = self.groups or [self], isinstance(self.numbers, dict)
-        for key, names, known in (
+        for key, names, allowed in (
             ("groups.of", [label for group in groups for label in group.of], self.of),
             ("numbers", self.numbers if by_label else (), self.of),
             ("each", [name for group in groups for name in group.each], self.lists),
         ):
-            if unknown := [name for name in names if name not in known]:
-                text = f"is not there; there are {', '.join(known) or 'none'}"
+            if unknown := [name for name in names if name not in allowed]:
+                text = f"is not there; there are {', '.join(allowed) or 'none'}"
                 raise SettingsError(text, key=key, value=unknown[0])
 
     @checked
@@ -142,7 +144,7 @@ class Experiment(SettingsFile, Group):
             require_function(function_named(name), "numbers")
 
 
-class Case(Settings):
+class PlannedRow(Settings):
     """One row on one scene."""
 
     group: str
@@ -185,7 +187,7 @@ def require_function(named: str, key: str) -> None:
         raise SettingsError(fault, key=key, value=function)
 
 
-def cases(path: str | Path) -> list[Case]:
+def cases(path: str | Path) -> list[PlannedRow]:
     """Rows of the experiment in a file on each of their scenes.
 
     Raises
@@ -193,7 +195,7 @@ def cases(path: str | Path) -> list[Case]:
     SettingsError
         When it is not valid: a line for each fault, with file, line and key.
     """
-    experiment, scenes, found, faults = Experiment.load(path), {}, [], []
+    experiment, scenes, planned, faults = Experiment.load(path), {}, [], []
     lines = yaml_file.read_layers(path)[0].lines
 
     @contextmanager
@@ -202,9 +204,9 @@ def cases(path: str | Path) -> list[Case]:
         try:
             yield
         except SettingsError as error:
-            of_here = (fault for fault in error.faults if not fault.file)
+            unplaced = (fault for fault in error.faults if not fault.file)
             faults.extend(fault for fault in error.faults if fault.file)  # of a scene's own file
-            faults.extend(_placed(fault, path, places, lines) for fault in of_here)
+            faults.extend(_placed(fault, path, places, lines) for fault in unplaced)
 
     for label, given in experiment.of.items():
         with kept_faults(("of", label)):
@@ -215,15 +217,15 @@ def cases(path: str | Path) -> list[Case]:
             for label in [label for label in group.of or experiment.of if label in scenes]:
                 with kept_faults(*places):
                     names = [place[-1] for place in places]
-                    found.append(_case(experiment, group, label, names, rows, scenes[label]))
-    known = {(case.label, case.row) for case in found}
-    for label, against in dict.fromkeys((case.label, case.against) for case in found):
-        if against is not None and (label, against) not in known and not faults:
+                    planned.append(_case(experiment, group, label, names, rows, scenes[label]))
+    labelled = {(case.label, case.row) for case in planned}
+    for label, against in dict.fromkeys((case.label, case.against) for case in planned):
+        if against is not None and (label, against) not in labelled and not faults:
             text = f"is no row on the scene {label!r}"
             faults.append(Fault(text, "against", against, file=str(path)))
     if faults:
         raise SettingsError(*{str(fault): fault for fault in faults}.values())
-    return found
+    return planned
 
 
 def _values(given: str | Changes) -> dict[str, Any]:
@@ -246,12 +248,14 @@ def _case(
     names: Sequence[str],
     rows: Sequence[Changes],
     values: dict[str, Any],
-) -> Case:
+) -> PlannedRow:
     """A row with these ``names`` and changes on the scene of a label, which has ``values``."""
     directions, model = ["r"], None
     for changes in [part for row in rows for part in (row, row.get(label, {}))]:
-        own = {k: of for k, of in changes.items() if k not in (*experiment.of, *OF_A_ROW)}
-        values = _multiplied(placed(values, own), changes.get("times", {}))
+        settings = {
+            k: value for k, value in changes.items() if k not in (*experiment.of, *OF_A_ROW)
+        }
+        values = _multiplied(placed(values, settings), changes.get("times", {}))
         directions.append(changes.get("directions", "r"))
         model = f"workflow.{changes['model']}" if "model" in changes else model
     if unknown := set(directions) - set(DIRECTIONS):
@@ -264,8 +268,8 @@ def _case(
     if refused := [key for key in REFUSED if attrgetter(key)(scene)]:
         raise SettingsError("is no key of an experiment: take it out", key=refused[0])
     numbers = experiment.numbers
-    of_label = numbers if isinstance(numbers, str) else numbers.get(label, "peaks")
-    return Case(
+    function = numbers if isinstance(numbers, str) else numbers.get(label, "peaks")
+    return PlannedRow(
         group=group.name,
         label=label,
         names=names,
@@ -273,7 +277,7 @@ def _case(
         scene=scene,
         directions=max(*directions, scene.directions, key=len),
         model=model,
-        function=function_named(of_label),
+        function=function_named(function),
         needs=[*(["rom"] if experiment.marched else []), *experiment.needs],
     )
 
@@ -284,7 +288,7 @@ def _multiplied(values: dict[str, Any], factors: Mapping[str, float]) -> dict[st
         if not isinstance(value_at(values, key), int | float):
             text = "no number that the scene has: give the value itself, without `times`"
             raise SettingsError(text, key=f"times.{key}", value=value_at(values, key))
-    return placed(values, {key: of * value_at(values, key) for key, of in factors.items()})
+    return placed(values, {key: factor * value_at(values, key) for key, factor in factors.items()})
 
 
 def _placed(

@@ -1,17 +1,17 @@
 """The table of an experiment: a line for each row on each scene."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from itertools import zip_longest
-from typing import Any
 
 import pandas as pd
 
 from workflow import markdown
+from workflow.experiment.row import ExperimentRow
 
 FIRST = ["group", "row", "scene", "blade", "cpu_s"]  # columns before the numbers
 
 
-def rows(blocks: list[list[dict[str, Any]]]) -> list[dict[str, Any]]:
+def rows(blocks: list[list[ExperimentRow]]) -> list[ExperimentRow]:
     """Rows of all blocks, in the order of the cases.
 
     >>> rows([["first", "third"], ["second"]])
@@ -20,7 +20,7 @@ def rows(blocks: list[list[dict[str, Any]]]) -> list[dict[str, Any]]:
     return [row for turn in zip_longest(*blocks) for row in turn if row]
 
 
-def frame(rows: Sequence[Mapping[str, Any]]) -> pd.DataFrame:
+def frame(rows: Sequence[ExperimentRow]) -> pd.DataFrame:
     """Description of each row, its CPU time, and its numbers, nested ones by a joint name.
 
     Lists among the numbers are left out, and columns without any value.
@@ -35,12 +35,12 @@ def frame(rows: Sequence[Mapping[str, Any]]) -> pd.DataFrame:
     return whole.replace("", None).dropna(axis=1, how="all")
 
 
-def csv(rows: Sequence[Mapping[str, Any]]) -> str:
+def csv(rows: Sequence[ExperimentRow]) -> str:
     """The table as CSV."""
     return frame(rows).to_csv(index=False)
 
 
-def table(rows: Sequence[Mapping[str, Any]]) -> str:
+def table(rows: Sequence[ExperimentRow]) -> str:
     """The table as Markdown."""
-    found = frame(rows).astype(object)
-    return markdown.table([*found], found.map(markdown.cell).values) + "\n"
+    columns = frame(rows).astype(object)
+    return markdown.table([*columns], columns.map(markdown.cell).values) + "\n"

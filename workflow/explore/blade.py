@@ -21,9 +21,9 @@ from rom.model import Rom
 from rom.polynomial import evaluate
 from rom.reconstruct import Basis
 from workflow.explore.page import LARGEST
-from workflow.stress import Motion, motion, stresses
+from workflow.stress import Decomposition, motion, stresses
 
-MEGA = 1e-6
+MPA = 1e-6
 SHAPES = 6  # of the motion at all speeds
 
 
@@ -50,27 +50,27 @@ def moving(
             f"{mesh}: its surface has {len(nodes)} corner nodes; allowed on a page are {LARGEST}: "
             "take the scene out of `explore`, or a coarser mesh"
         )
-    found = motion(sweep, rom.M, SHAPES)
-    sigma = MEGA * stresses(solid, basis, found.shapes, blade.prestress)[:, :, nodes]
+    moved = motion(sweep, rom.M, SHAPES)
+    sigma = MPA * stresses(solid, basis, moved.shapes, blade.prestress)[:, :, nodes]
     order = dofs_at(basis.coordinates, solid.free_coordinates()).ravel()
-    displaced = map(solid.field, (basis.T @ found.shapes)[order].T)
+    displaced = map(solid.field, (basis.T @ moved.shapes)[order].T)
     arrays = {
         "points": points[nodes],
         "triangles": numbered.reshape(-1, 3).astype(float),
         "shapes": np.array([u.x.array.reshape(-1, 3)[nodes] for u in displaced]),
-        "a": found.a,
+        "a": moved.a,
         "static": sigma[:, 0],
         "of_shapes": evaluate(sigma, 0.5)[1:],
     }
-    return _facts(found, sweep, rom), arrays | _liner(sweep, rom)
+    return _facts(moved, sweep, rom), arrays | _liner(sweep, rom)
 
 
-def _facts(found: Motion, sweep: xr.Dataset, rom: Rom) -> dict[str, Any]:
+def _facts(moved: Decomposition, sweep: xr.Dataset, rom: Rom) -> dict[str, Any]:
     """Share missed by the shapes at each speed; times of states in a revolution; top speed."""
     time = sweep["motion_time"].values
     return {
-        "shapes": found.shapes.shape[1],
-        "missed": found.missed.tolist(),
+        "shapes": moved.shapes.shape[1],
+        "missed": moved.missed.tolist(),
         "of_round": (time % 1.0).tolist(),
         "Omega_m_over_f1": rom.Omega_m / rom.omega1,
     }

@@ -30,23 +30,23 @@ def packed(arrays: Mapping[str, NDArray[np.float64]]) -> dict[str, Any]:
     A number is low + step * code, with an error of half a step: 1 / 131068 of the array's range.
     """
     layout: dict[str, Any] = {}
-    codes, at = [], 0
+    codes, begin = [], 0
     for name, values in arrays.items():
         code, low, step = quantised(values)
-        layout[name] = {"shape": list(values.shape), "low": low, "step": step, "at": at}
+        layout[name] = {"shape": list(values.shape), "low": low, "step": step, "at": begin}
         codes.append(code.ravel())
-        at += code.size
+        begin += code.size
     return {"layout": layout, "codes": compressed(np.concatenate(codes).astype("<u2").tobytes())}
 
 
 def quantised(values: NDArray[np.float64]) -> tuple[NDArray[np.uint16], float, float]:
     """Codes (like ``values``), the lowest value, and the step from code to code."""
-    finite = values[np.isfinite(values)]
+    is_finite = np.isfinite(values)
+    finite = values[is_finite]
     low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 0.0)
     step = (high - low) / LARGEST or 1.0
     code = np.full(values.shape, MISSING, np.uint16)
-    known = np.isfinite(values)
-    code[known] = np.rint((values[known] - low) / step)
+    code[is_finite] = np.rint((values[is_finite] - low) / step)
     return code, low, step
 
 

@@ -19,6 +19,10 @@ MODES = 4  # natural frequencies of the Campbell diagram
 HIGHEST = 2.5  # f / f1(0) of spectra
 FLOOR = 1e-6  # gaps, least amplitude on a logarithmic scale
 ANGLES, COARSE = 720, 180  # around the casing: of profiles, and of the liner's surface
+DIFFERENCES = {  # of a run from another, by the name in the sweep
+    "departure": "relative difference from the twin run",
+    "error": "relative error",
+}
 
 type Arrays = dict[str, NDArray[np.float64]]
 
@@ -33,18 +37,18 @@ def arrays(response: Response) -> Arrays:
     """
     sweep, gap = response.sweep, leading_gap(response.sweep)
     theta = np.arange(ANGLES) * 2 * np.pi / ANGLES
-    found = {"inward": response.scene.casing.inward(theta, gap) / gap}
+    by_name = {"inward": response.scene.casing.inward(theta, gap) / gap}
     if "wear" in sweep:
-        found["worn"] = around(response.wear, ANGLES)
-        found["liner"] = around(sweep["wear"].values / gap, COARSE)
+        by_name["worn"] = around(response.wear, ANGLES)
+        by_name["liner"] = around(sweep["wear"].values / gap, COARSE)
     if "spectrum" in sweep:
-        found["along"] = log10(np.stack([along_order(sweep, k) for k in ORDERS], axis=1))
-        found["spectrum"] = log10(response.spectrum[:, : shown_bins(response)])
+        by_name["along"] = log10(np.stack([along_order(sweep, k) for k in ORDERS], axis=1))
+        by_name["spectrum"] = log10(response.spectrum[:, : shown_bins(response)])
     if "envelope" in sweep:
-        found["history"] = sweep["envelope"].values / gap
+        by_name["history"] = sweep["envelope"].values / gap
     if "motion" in sweep:
-        found["signal"] = sweep["motion"].values @ response.rom.rows(np.array([LEADING]))[0] / gap
-    return found
+        by_name["signal"] = sweep["motion"].values @ response.rom.rows(np.array([LEADING]))[0] / gap
+    return by_name
 
 
 def log10(amplitude: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -74,7 +78,7 @@ def facts(response: Response, blade: str, scene: str) -> dict[str, Any]:
         "label": response.label.replace("$", "").replace("\\sigma_Y", "σ_Y").replace("\n", " "),
         "norms": response.units["speed"][0].scale == 1.0,
         "campbell": {"speeds": speeds.tolist(), "frequencies": frequencies.T.tolist()},
-        "crossings": [(k, at) for k in ORDERS if isfinite(at := crossing(rom, k))],
+        "crossings": [(k, speed) for k in ORDERS if isfinite(speed := crossing(rom, k))],
         "signal_time": sweep["motion_time"].values.tolist() if "motion" in sweep else [],
         "f1_Hz": sweep.attrs["f1_Hz"],
         "gap_um": 1e6 * leading_gap(sweep),
@@ -91,13 +95,13 @@ def facts(response: Response, blade: str, scene: str) -> dict[str, Any]:
         "lobes": [lobe_count(wear) for wear in response.wear] if "wear" in sweep else [],
         "peaks": [
             {
-                "k": of.k,
-                "index": of.index,
-                "crossing": of.crossing,
-                "amplitude": of.amplitude,
-                "at_end": of.at_end,
+                "k": reported.k,
+                "index": reported.index,
+                "crossing": reported.crossing,
+                "amplitude": reported.amplitude,
+                "at_end": reported.at_end,
             }
-            for of in response.peaks
+            for reported in response.peaks
         ],
         "tables": tables(response),
         "meanings": sweep["energy"].attrs["long_name"],
@@ -108,17 +112,28 @@ def tables(response: Response) -> list[dict[str, Any]]:
     """Numbers of each speed: energies, differences from twins, errors; lists by name."""
     sweep = response.sweep
     energies = zip(sweep["energy"].values, sweep["ledger"].values.T, strict=True)
-    found = [{"says": "energy of the run, J", "of": {str(name): told(of) for name, of in energies}}]
-    for name, says in (
-        ("departure", "relative difference from the twin run"),
-        ("error", "relative error"),
-    ):
-        if name in sweep and sweep[name].notnull().any():
-            of = {one: told(sweep[name].sel(observable=one).values) for one in response.observables}
-            found.append({"says": says, "of": of})
-    return found
+    return [
+        {
+            "says": "energy of the run, J",
+            "of": {str(name): plain(joules) for name, joules in energies},
+        },
+        *(
+            {
+                "says": says,
+                "of": {
+                    one: plain(sweep[name].sel(observable=one).values)
+                    for one in response.observables
+                },
+            }
+            for name, says in DIFFERENCES.items()
+            if name in sweep and sweep[name].notnull().any()
+        ),
+    ]
 
 
-def told(values: Iterable[float]) -> list[float | str | None]:
+def plain(values: Iterable[float]) -> list[float | str | None]:
     """Plain values: None where not known; inf is a run that ended otherwise than its companion."""
-    return [None if isnan(of) else "ended differently" if isinf(of) else float(of) for of in values]
+    return [
+        None if isnan(value) else "ended differently" if isinf(value) else float(value)
+        for value in values
+    ]

@@ -106,6 +106,7 @@ def _rub(
     times = ramped + (np.arange(rounds * samples) + 1) / samples
 
     def inward(after: float) -> NDArray[np.float64]:
+        """Distortion (nu,) of the casing after so many revolutions, over the gap."""
         theta, time = 2 * np.pi * np.arange(nu) / nu, (ramped + after) * 2 * np.pi / setup.Omega
         return scene.casing.inward(theta, given, time) / gap
 
@@ -147,12 +148,13 @@ def animation(rub: Rub, title: str, last: bool = False) -> FuncAnimation:
     drawn.set_layout_engine("none")  # of the first frame, for all
 
     def show(frame: int) -> None:
+        """Draw a moment into the panels."""
         n, s = moments[frame]
         drawn.suptitle(f"{above}\nrevolution {n + 1} of {rounds}{ended}", fontsize=8)
         for line, data in zip(lines, _lines(rub, n, s), strict=True):
             line.set_data(*data)
-        now = n + (s + 1) / samples
-        history.set_xlim(max(0, now - SEEN), max(SEEN, now))
+        revolutions = n + (s + 1) / samples
+        history.set_xlim(max(0, revolutions - SEEN), max(SEEN, revolutions))
 
     return FuncAnimation(drawn, show, frames=len(moments), interval=1000 / RATE)
 

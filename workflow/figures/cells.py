@@ -61,12 +61,16 @@ def draw(
         limits = min(0.0, frame[value].min()), None
     height = FOOTER + ceil(len(panels) / 2) * (HEADER + LINE * lines * len(rows))
     drawn = style.panels(len(panels), style.DOUBLE, height)
-    look = {"text": text, "bold": bold, "labels": labels}
-    look["colours"] = style.MAP if log else style.MAP_FROM_ZERO
-    look["scale"] = (LogNorm if log else Normalize)(*limits or (None, None))
+    look = {
+        "text": text,
+        "bold": bold,
+        "labels": labels,
+        "colours": style.MAP if log else style.MAP_FROM_ZERO,
+        "scale": (LogNorm if log else Normalize)(*limits or (None, None)),
+    }
     for axes, (name, these) in zip(drawn.axes, panels.items(), strict=True):
-        cells_of_panel = these.to_dict("records")
-        image = matrix(axes, cells_of_panel, x, y, value, [*columns], [*rows], **look)
+        panel_records = these.to_dict("records")
+        image = matrix(axes, panel_records, x, y, value, [*columns], [*rows], **look)
         axes.set_title(labelled(labels, name), fontweight="bold")
         axes.set(xlabel=labels.get(x, ""), ylabel=labels.get(y, ""))
         axes.xaxis.set_label_position("top")
@@ -99,9 +103,9 @@ def matrix(
 
     The arguments are those of ``draw``; ``scale`` is that of the ``colours``.
     """
-    at = {(rows.index(record[y]), columns.index(record[x])): record for record in records}
+    places = {(rows.index(record[y]), columns.index(record[x])): record for record in records}
     values = np.full((len(rows), len(columns)), np.nan)
-    for cell, record in at.items():
+    for cell, record in places.items():
         values[cell] = record[value]
     image = axes.imshow(np.ma.masked_invalid(values), colours, scale, aspect="auto")
     for axis, names in ((axes.xaxis, columns), (axes.yaxis, rows)):
@@ -110,7 +114,7 @@ def matrix(
     axes.grid(which="minor", color="white", linewidth=1.0)
     axes.tick_params(which="both", length=0)
     faces = image.to_rgba(image.get_array())
-    for (row, column), record in at.items():
+    for (row, column), record in places.items():
         shown = record[text] if text else number_in(record[value], unknown="")
         if shown:
             dark = np.dot(GREY_WEIGHTS, faces[row, column, :3]) < DARK

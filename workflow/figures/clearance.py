@@ -24,7 +24,6 @@ LOOKS = {  # of the places on the chord
     "1/16": {"color": style.BLACK, "linestyle": "-"},
     "15/16": {"color": style.VERMILLION, "linestyle": "--"},
 }
-MICRO = 1e6
 
 
 def inward(response: Response) -> NDArray[np.float64]:
@@ -85,11 +84,11 @@ def _shape(
 def gap(sweep: Response) -> Figure:
     """Gaps at both places of the chord at which a scene gives them; at rest as dotted lines."""
     drawn, axes = style.subplots(style.SINGLE, 2.4)
-    at_rest = sweep.scene.clearance.gaps([LEADING, TRAILING], sweep.rom.span)
+    gaps_at_rest = sweep.scene.clearance.gaps([LEADING, TRAILING], sweep.rom.span)
     running = gaps_at_ends(sweep.sweep).T
-    for (xi, look), given, gaps in zip(LOOKS.items(), at_rest, running, strict=True):
-        axes.plot(sweep.speeds, MICRO * gaps, label=rf"$\xi$ = {xi}", **look)
-        axes.axhline(MICRO * given, color=look["color"], linestyle=":", linewidth=0.8)
+    for (xi, look), given, gaps in zip(LOOKS.items(), gaps_at_rest, running, strict=True):
+        axes.plot(sweep.speeds, units.MICRO * gaps, label=rf"$\xi$ = {xi}", **look)
+        axes.axhline(units.MICRO * given, color=look["color"], linestyle=":", linewidth=0.8)
     axes.set(ylabel="gap (µm)", ylim=(0, None))
     units.show(axes.xaxis, style.below, *sweep.units["speed"])
     axes.legend(title="dotted: at rest")

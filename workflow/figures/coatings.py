@@ -40,9 +40,9 @@ def peaks(grid: Case, order: int = 4) -> Figure:
     """
     drawn, panels = style.subplots(style.DOUBLE, 4.4, 2, letters=True, sharex=True)
     cases = [case | {"peak": case["peaks"][str(order)]} for case in grid["cases"]]
-    found = [case["peak"] for case in cases if case["peak"]]
-    largest = max(found, key=lambda peak: peak["amplitude"], default=None)
-    crossing = next((peak["Omega_c"] / peak["over_crossing"] for peak in found), np.nan)
+    peaks_of_order = [case["peak"] for case in cases if case["peak"]]
+    largest = max(peaks_of_order, key=lambda peak: peak["amplitude"], default=None)
+    crossing = next((peak["Omega_c"] / peak["over_crossing"] for peak in peaks_of_order), np.nan)
     for axes, (name, (label, digits)) in zip(panels, NUMBERS.items(), strict=True):
         records = [
             case
@@ -69,8 +69,8 @@ def _text(case: Case, name: str, digits: int, order: int) -> str:
     peak = case["peak"]
     if peak is None:
         return NO_PEAK
-    of_paper = order == PRINTED and (case["E"], case["K"]) == tuple(WORST)
-    marked = f"{peak[name]:.{digits}f}{RISE * peak['at_end']}{OF_PAPER * of_paper}"
+    is_worst_of_paper = order == PRINTED and (case["E"], case["K"]) == tuple(WORST)
+    marked = f"{peak[name]:.{digits}f}{RISE * peak['at_end']}{OF_PAPER * is_worst_of_paper}"
     return f"({marked})" if state_of(peak) == "sensitive" else marked
 
 
@@ -110,5 +110,5 @@ def _cell(case: Case) -> dict[str, Any]:
 def _totals(grid: Case) -> str:
     """Number of runs by status, and which of them have twins."""
     ends = sum((Counter(case["statuses"]) for case in grid["cases"]), Counter())
-    listed = ", ".join(f"{count:,} {word}" for word, count in ends.most_common())
+    listed = ", ".join(f"{count:,} {status}" for status, count in ends.most_common())
     return f"{ends.total():,} runs: {listed}; twins at the peaks alone"

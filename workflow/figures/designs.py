@@ -30,7 +30,7 @@ def table(rows: xr.Dataset) -> pd.DataFrame:
     In rpm, micrometres and newtons; a peak that is not reported has no numbers.
     """
     reported = rows["reported"] > 0
-    at_peaks = {
+    by_quantity = {
         "critical speed (rpm)": RPM_PER_HZ * rows.attrs["f1_Hz"] * rows["critical_speed"],
         "amplitude (µm)": MICRO * rows["gap"] * rows["peak"],
         "motion": reported.copy(data=np.array([*TRENDS, ""])[rows["trend"]]),
@@ -38,17 +38,19 @@ def table(rows: xr.Dataset) -> pd.DataFrame:
         "peak force (N)": rows["force_peak"],
     }
     by_order = {
-        f"EO {k} {name}": of.where(reported).sel(order=k, drop=True)
+        f"EO {k} {name}": values.where(reported).sel(order=k, drop=True)
         for k in rows["order"].values[reported.any("row")]
-        for name, of in at_peaks.items()
+        for name, values in by_quantity.items()
     }
-    of_row = {name: of for name, of in rows.items() if of.attrs.get("long_name") == "given"} | {
+    row_columns = {
+        name: values for name, values in rows.items() if values.attrs.get("long_name") == "given"
+    } | {
         LARGEST: MICRO * rows["largest_amplitude"],
         DEEPEST: MICRO * rows["largest_wear"],
         "runs": rows["runs"],
         "runs not ok": rows["not_ok"],
     }
-    return xr.Dataset(of_row | by_order).to_dataframe()
+    return xr.Dataset(row_columns | by_order).to_dataframe()
 
 
 def csv(rows: Rows) -> str:
@@ -61,9 +63,9 @@ def draw(rows: Rows) -> Figure:
 
     Over the number of the row where it changes words alone.
     """
-    found = table(rows).reset_index()
-    keys = [name for name in found if name in rows and found[name].dtype.kind == "f"]
-    records = found.melt([LARGEST, DEEPEST], keys or ["row"], value_name=VALUE)
+    frame = table(rows).reset_index()
+    keys = [name for name in frame if name in rows and frame[name].dtype.kind == "f"]
+    records = frame.melt([LARGEST, DEEPEST], keys or ["row"], value_name=VALUE)
     return lines.draw(
         records, VALUE, [LARGEST, DEEPEST], panel="variable", looks=[("o", style.BLACK)]
     )
@@ -75,15 +77,15 @@ def sensitivity(rows: Rows) -> Figure:
 
     ``rows``: the table of a design, by row.
     """
-    found = indices(rows, [*QUANTITIES])
+    sobol = indices(rows, [*QUANTITIES])
     drawn, panels = style.subplots(
         style.DOUBLE, 2.6, columns=len(QUANTITIES), letters=True, sharey=True
     )
     for i, (axes, title) in enumerate(zip(panels, QUANTITIES.values(), strict=True)):
-        first, total = found.first_interval[:, i], found.total_interval[:, i]
-        _bars(axes, -WIDTH / 2, found.first[i], first, color=style.BLUE, label="first order")
-        _bars(axes, WIDTH / 2, found.total[i], total, color=style.VERMILLION, label="total")
-        axes.set_xticks(range(len(found.factors)), found.factors)
+        first, total = sobol.first_interval[:, i], sobol.total_interval[:, i]
+        _bars(axes, -WIDTH / 2, sobol.first[i], first, color=style.BLUE, label="first order")
+        _bars(axes, WIDTH / 2, sobol.total[i], total, color=style.VERMILLION, label="total")
+        axes.set_xticks(range(len(sobol.factors)), sobol.factors)
         axes.set_title(title, loc="right")
         axes.axhline(0, color=style.BLACK, linewidth=0.6)
     panels[0].set_ylabel("share of the variance")

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from geometry.hats import hats
 from geometry.interface import tip_of
-from geometry.tip import Tip, cartesian, on_line
+from geometry.tip import DevelopedTip, cartesian, on_line
 from rom.model import Rom
 from simulate.contact.places import SHARES
 from simulate.scene import LEADING
@@ -49,7 +49,7 @@ class Tipped:
 
     solid: pv.UnstructuredGrid  # its points in m
     facets: NDArray[np.int64]  # (facets, 6), of the tip
-    tip: Tip
+    tip: DevelopedTip
     nodes: NDArray[np.float64]  # (patches,), chord fractions at which the hat functions are 1
 
     def on_camber(self, xi: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -93,8 +93,8 @@ def _whole(axes: Axes, blade: Tipped) -> None:
     no_values = np.zeros(blade.solid.n_points)
     picture = views.picture(blade.solid, 0, no_values, VIEW, PAINT, (0, 1), LIGHT)
     rows, columns = views.window([picture])
-    at = views.pixels(blade.solid, VIEW, blade.on_camber(blade.nodes))
-    nodes = at - (columns.start, rows.start)
+    pixels = views.pixels(blade.solid, VIEW, blade.on_camber(blade.nodes))
+    nodes = pixels - (columns.start, rows.start)
     axes.imshow(picture[rows, columns], interpolation="none")
     axes.set_axis_off()
     axes.plot(*nodes.T, ".-", clip_on=False, **(NODES | {"markersize": 2.5}))
@@ -168,6 +168,6 @@ def _sides(axes: Axes, nodes: NDArray[np.float64]) -> None:
     axes.text(0.81, 0.8, r"$\Omega$", transform=within, ha="right", va="center")
 
 
-def _say(axes: Axes, at: NDArray[np.float64], text: str, offset: tuple[float, float]) -> None:
+def _say(axes: Axes, place: NDArray[np.float64], text: str, offset: tuple[float, float]) -> None:
     """Write ``text`` next to a point, ``offset`` in points of type."""
-    style.note(axes, at, text, offset, ha="center", va="center")
+    style.note(axes, place, text, offset, ha="center", va="center")

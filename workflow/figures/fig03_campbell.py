@@ -38,7 +38,7 @@ def draw(
     drawn, (first, every) = style.subplots(
         style.DOUBLE, 3.2, 1, 2, letters=True, width_ratios=(1.25, 1)
     )
-    found, lines = critical(rom, operating), operating["lines"]
+    campbell, lines = critical(rom, operating), operating["lines"]
     f1 = _frequencies(first, rom, check, 1, beyond=bool(lines))
     margin = HEADROOM * f1.max()
     first.set_ylim(f1.min() - 2 * margin, f1.max() + margin)
@@ -46,17 +46,18 @@ def draw(
     for mode, last in enumerate(modes[-1], start=1):
         style.note(every, (every.get_xlim()[1], last), str(mode), (5, 0), va="center")
     every.set_ylim(0, 1.2 * modes.max())
-    rows = [row | {"rpm_error": None} for row in margins.rows(found)]  # that of the mesh: not known
-    shown = margins.near(rows) if lines else found["crossings"]
+    # the error of the mesh is not known
+    rows = [row | {"rpm_error": None} for row in margins.rows(campbell)]
+    shown = margins.near(rows) if lines else campbell["crossings"]
     both = units.both(printed, rom.f1)
-    for axes, orders, of_mode_1 in ((first, ENGINE_ORDERS, True), (every, OVER_ALL, False)):
-        marked = [of for of in shown if (of["mode"] == 1) == of_mode_1]
+    for axes, orders, first_mode in ((first, ENGINE_ORDERS, True), (every, OVER_ALL, False)):
+        marked = [crossing for crossing in shown if (crossing["mode"] == 1) == first_mode]
         _crossings(axes, orders, marked, rom.f1, both["speed"][0])
         units.show(axes.xaxis, style.below, *both["speed"])
     if printed:
         _printed(first)
-    told = {name: "\n".join(margins.nearest(found, rows, name, "crossing")) for name in lines}
-    operating_lines(drawn, first, rom.f1, lines, told)
+    texts = {name: "\n".join(margins.nearest(campbell, rows, name, "crossing")) for name in lines}
+    operating_lines(drawn, first, rom.f1, lines, texts)
     operating_lines(None, every, rom.f1, lines)
     opaque = {"frameon": True, "framealpha": 1.0, "edgecolor": "none"}
     first.legend(loc="lower right", handlelength=1.2, borderaxespad=0.3, **opaque)
@@ -92,20 +93,20 @@ def _frequencies(
 def _crossings(
     axes: Axes,
     orders: Sequence[int],
-    found: Sequence[Mapping[str, Any]],
+    marked: Sequence[Mapping[str, Any]],
     f1_Hz: float,
     unit: units.Unit,
 ) -> None:
     """Draw engine orders, and mark crossings with their speed in a unit."""
-    for k in sorted({*orders, *(of["k"] for of in found)}):
-        engine_order(axes, k, "--", beside=14)  # beyond the numbers of the modes
-    over_f1 = {(of["rpm"] / (units.RPM_PER_HZ * f1_Hz), of["k"]) for of in found}
-    at = [
+    for k in sorted({*orders, *(crossing["k"] for crossing in marked)}):
+        engine_order(axes, k, "--", distance=14)  # beyond the numbers of the modes
+    over_f1 = {(crossing["rpm"] / (units.RPM_PER_HZ * f1_Hz), crossing["k"]) for crossing in marked}
+    places = [
         (speed, k * speed)
         for speed, k in sorted(over_f1, reverse=True)
         if speed <= axes.get_xlim()[1]
     ]
-    axes.plot(*np.reshape(at, (-1, 2)).T, label="crossing and its speed", **OURS)
+    axes.plot(*np.reshape(places, (-1, 2)).T, label="crossing and its speed", **OURS)
     look = {
         "color": style.VERMILLION,
         "ha": "right",
@@ -113,7 +114,7 @@ def _crossings(
         "rotation": -40,
         "bbox": BEHIND,
     }
-    for place in at:
+    for place in places:
         speed, *_ = unit.number.format(unit.scale * place[0]).split()
         style.note(axes, place, speed, (0, 2), **look)
 

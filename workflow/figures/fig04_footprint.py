@@ -67,8 +67,8 @@ def _panel(axes: Axes, shown: Footprint) -> None:
     arc, width = MILLI * rods.s, MILLI * shown.pitch
     axes.bar(arc, rods.worn - rods.unworn, width, rods.unworn, **WORN_AWAY)
     axes.bar(arc, high - rods.end, width, rods.end, **ROD)
-    of = rods[rods.sigma > 0]
-    covered = MILLI * of.begin, high - of.end, MILLI * (of.finish - of.begin), of.end
+    load = rods[rods.sigma > 0]
+    covered = MILLI * load.begin, high - load.end, MILLI * (load.finish - load.begin), load.end
     axes.bar(*covered, align="edge", **ENGAGED)
     outline = [*along, along[-1], along[0]], [*surface, low - 1, low - 1]
     axes.fill(np.multiply(MILLI, outline[0]), outline[1], **TIP)
@@ -83,27 +83,28 @@ def _panel(axes: Axes, shown: Footprint) -> None:
     axes.annotate("", (0.97, 0.08), (0.82, 0.08), xycoords="axes fraction", arrowprops=style.ARROW)
     axes.text(0.8, 0.08, r"$\Omega$", transform=axes.transAxes, ha="right", va="center")
     axes.set_title(f"radial scale $\\times$ {magnified:g}", loc="right", fontsize=7)
-    at, steep = (of.begin + of.finish) / 2, magnified * of.slope
-    force = of.part * of.sigma / (of.part * of.sigma).max() / np.hypot(1, steep)
-    feet = MILLI * at, np.interp(at, along, surface)  # forces: normal to the profile as drawn
+    middle, steep = (load.begin + load.finish) / 2, magnified * load.slope
+    force = load.part * load.sigma / (load.part * load.sigma).max() / np.hypot(1, steep)
+    # forces: normal to the profile as drawn
+    feet = MILLI * middle, np.interp(middle, along, surface)
     axes.quiver(*feet, -steep * force, -force, color=style.BLACK, **ARROWS)
 
 
 def _window(shown: Footprint) -> tuple[float, float]:
     """Arc shown, m: the loaded rods, and neighbours."""
     loaded = shown.rods[shown.rods.sigma > 0]
-    beside = BESIDE * shown.pitch
-    return loaded.begin.min() - beside, loaded.finish.max() + beside
+    margin = BESIDE * shown.pitch
+    return loaded.begin.min() - margin, loaded.finish.max() + margin
 
 
 def _name_depths(axes: Axes, shown: Footprint) -> None:
     """Label the worn depth and the elastic compression of the rods."""
     covered = np.flatnonzero(shown.rods.part > 0)
     before, last = shown.rods.iloc[covered[0] - 2], shown.rods.iloc[covered[-1]]
-    at = MILLI * before.s
-    style.measure(axes, (at, before.unworn), (at, before.worn), "worn depth", **DEPTH)
-    at = MILLI * (shown.tip[0, -1] + 0.15 * shown.pitch)
-    style.measure(axes, (at, last.worn), (at, last.end), "elastic", **DEPTH)
+    x = MILLI * before.s
+    style.measure(axes, (x, before.unworn), (x, before.worn), "worn depth", **DEPTH)
+    x = MILLI * (shown.tip[0, -1] + 0.15 * shown.pitch)
+    style.measure(axes, (x, last.worn), (x, last.end), "elastic", **DEPTH)
     cut = f"rods cut off:\n$l$ = {shown.thickness / shown.gap:.0f} $g$"
     axes.text(0.02, 0.95, cut, transform=axes.transAxes, va="top", fontsize=7, bbox=BEHIND)
 
@@ -113,6 +114,6 @@ def _name_profile(axes: Axes, shown: Footprint) -> None:
     (first, last), (along, surface) = _window(shown), shown.tip
     seen = (along >= first) & (along <= last)
     lowest = along[seen][surface[seen].argmin()]
-    at = lowest + np.sign(first + last - 2 * lowest) * NAMED * (last - first)
-    ends = (MILLI * at, np.interp(at, along, surface)), (MILLI * at, surface[seen].max())
+    x = lowest + np.sign(first + last - 2 * lowest) * NAMED * (last - first)
+    ends = (MILLI * x, np.interp(x, along, surface)), (MILLI * x, surface[seen].max())
     style.measure(axes, *ends, "$p(s)$", **DEPTH)

@@ -72,13 +72,13 @@ def spread(
     ValueError
         When a free node is not on the mesh: the files do not belong together.
     """
-    distance, at = cKDTree(points).query(free)
+    distance, nearest = cKDTree(points).query(free)
     if distance.max() > MATCH * np.ptp(points, axis=0).max():
         raise ValueError(
             f"mode shapes belong to another mesh: a node is {distance.max():.3g} m off"
         )
     whole = np.zeros((len(shapes), len(points), 3))
-    whole[:, at] = shapes
+    whole[:, nearest] = shapes
     return whole
 
 

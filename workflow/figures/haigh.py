@@ -26,9 +26,11 @@ def draw(stress: Mapping[str, Any], answers: Mapping[str, Any]) -> Figure:
         [fatigue.endurance_MPa - fatigue.yield_MPa, 0.0],
     )
     rows = {row["speed_over_f1"]: row for row in stress["speeds"] if "margin" in row}
-    places = {at: (of["mean_stress"] / MEGA, of["alternating"] / MEGA) for at, of in rows.items()}
+    places = {
+        speed: (row["mean_stress"] / MEGA, row["alternating"] / MEGA) for speed, row in rows.items()
+    }
     drawn, (whole, near) = style.subplots(style.DOUBLE, 2.8, 1, 2, letters=True)
-    of_all = np.array([*places.values()]).reshape(-1, 2).T
+    stresses = np.array([*places.values()]).reshape(-1, 2).T
     whole.plot(
         mean,
         allowed(MEGA * mean, fatigue) / MEGA,
@@ -36,15 +38,15 @@ def draw(stress: Mapping[str, Any], answers: Mapping[str, Any]) -> Figure:
         label=f"{fatigue.line.capitalize()} line, and yield",
     )
     for axes in (near, whole):
-        axes.plot(*of_all, "o", color=style.GREY, markersize=2.5, label="each speed")
+        axes.plot(*stresses, "o", color=style.GREY, markersize=2.5, label="each speed")
         axes.margins(0.12)  # for the names of peaks
         axes.set(xlabel="mean stress (MPa)", ylabel="alternating stress (MPa)", ylim=(0, None))
     least = min((row["margin"] for row in rows.values()), default=np.inf)
     for peak in [peak for peak in answers["peaks"] if peak["k"] and peak["Omega_c"] in rows]:
-        at = places[peak["Omega_c"]]
-        near.plot(*at, "o", color=style.VERMILLION, markersize=3.5, label="peak")
+        place = places[peak["Omega_c"]]
+        near.plot(*place, "o", color=style.VERMILLION, markersize=3.5, label="peak")
         if rows[peak["Omega_c"]]["margin"] < NAMED * least:
-            style.note(near, at, f"EO {peak['k']}", (4, 3))
+            style.note(near, place, f"EO {peak['k']}", (4, 3))
     style.legend(drawn, "lower center", ncols=3)
     drawn.suptitle(
         f"scene {stress['scene']}, blade {stress['blade']}: least margin {least:.3g}", fontsize=8

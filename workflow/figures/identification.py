@@ -54,10 +54,10 @@ def _densities(axes: Axes, fits: Mapping[str, Any], name: str, prior: Prior) -> 
     values = scale * np.array(fits["values"][name])
     axes.axhline(1, color=style.GREY, linewidth=0.8, label="prior")
     for (K, data), (label, color, line) in LINES.items():
-        of = fits["fits"][Fit(K, fits["served"]).name][data]
-        counts, _ = np.histogram(values, edges, weights=of["weights"])
-        label = f"{label}\n({of['effective']:.0f} effective points)"
-        width = FEW if of["ranges"] is None else None
+        numbers = fits["fits"][Fit(K, fits["served"]).name][data]
+        counts, _ = np.histogram(values, edges, weights=numbers["weights"])
+        label = f"{label}\n({numbers['effective']:.0f} effective points)"
+        width = FEW if numbers["ranges"] is None else None
         axes.stairs(BINS * counts, edges, color=color, linestyle=line, linewidth=width, label=label)
     axes.set_xscale("log" if prior.log else "linear")
     axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
@@ -71,17 +71,17 @@ def together(shares: Mapping[str, Any]) -> Figure:
     A posterior of too few effective points has no draws, and no panel. On the diagonal is the
     share of all draws, in bold.
     """
-    known = {name: shares[name][MODULUS] for name in TITLES if name in shares}
-    records = [cell for name, of in known.items() for cell in _cells(name, of)]
+    drawn = {name: shares[name][MODULUS] for name in TITLES if name in shares}
+    records = [cell for name, part in drawn.items() for cell in _cells(name, part)]
     look = {"text": "text", "bold": "alone", "panel": "of", "limits": (0, 100)}
     return cells.draw(records, "other", "one", "share", labels=TITLES | {"share": SHARE}, **look)
 
 
-def _cells(name: str, of: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
+def _cells(name: str, shares: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
     """Shares in percent."""
-    for one, held in of["holds"].items():
-        for other in of["holds"]:
-            share = 100 * np.array(held if one == other else of["together"][one][other], float)
+    for one, held in shares["holds"].items():
+        for other in shares["holds"]:
+            share = 100 * np.array(held if one == other else shares["together"][one][other], float)
             text = f"{share:.0f}" if np.isfinite(share) else ""
             cell = {"one": one, "other": other, "alone": one == other}
             yield {"of": name, "share": share, "text": text} | cell

@@ -95,8 +95,8 @@ def curves(
 
     ``look``: of all lines. Those without a number are left out.
     """
-    of_lines = split(records, line).items()
-    for (name, these), (fmt, color) in zip(of_lines, cycle(looks), strict=False):
-        at = these[[x, y]].to_numpy(float)
-        if np.isfinite(at).all(axis=1).any():
-            axes.plot(*at.T, fmt, color=color, label=labelled(labels, name), **look)
+    by_line = split(records, line).items()
+    for (name, these), (fmt, color) in zip(by_line, cycle(looks), strict=False):
+        points = these[[x, y]].to_numpy(float)
+        if np.isfinite(points).all(axis=1).any():
+            axes.plot(*points.T, fmt, color=color, label=labelled(labels, name), **look)

@@ -22,7 +22,7 @@ LOOKS = (  # of scenes, distinct without colour
     {"color": style.GREEN, "linestyle": "-."},
 )
 MARKERS = "osD^"
-CUBIC_MM, MICRO, MPA = 1e9, 1e6, 1e-6
+CUBIC_MM, MPA = 1e9, 1e-6
 
 
 class Loads(NamedTuple):
@@ -44,16 +44,16 @@ def draw(
     operating: Mapping[str, Any] = NO_LINES,
 ) -> Figure:
     """Loads of scenes of one blade; ``answers`` of each, ``stress`` where it is known."""
-    known = {of["scene"]: of for of in stress}
+    by_scene = {stressed["scene"]: stressed for stressed in stress}
     pairs = zip(sweeps, answers, strict=True)
-    loads = [loads_of(sweep, of, known.get(of["scene"])) for sweep, of in pairs]
+    loads = [loads_of(sweep, results, by_scene.get(results["scene"])) for sweep, results in pairs]
     return panels(loads, rom.f1, rom.provenance.blade, operating)
 
 
 def loads_of(
-    response: Response, told: Mapping[str, Any], stress: Mapping[str, Any] | None
+    response: Response, results: Mapping[str, Any], stress: Mapping[str, Any] | None
 ) -> Loads:
-    """Loads of a sweep; ``told``: its answers; ``stress``: as of ``stress.json``."""
+    """Loads of a sweep; ``results``: its answers; ``stress``: as of ``stress.json``."""
     sweep, scene, rom = response.sweep, response.scene, response.rom
     width, radius = sweep["width"].values, rom.line(sweep["xi"].values)[:, 0]
     lines = {}
@@ -62,21 +62,23 @@ def loads_of(
     if "torque" in sweep:
         lines["torque"] = np.nanmean(sweep["torque"].values, axis=1)
     elif scene.no_torque is None and not scene.contact.tangential:
-        lines["torque"] = torque(_of_shaft(sweep["ledger"]), sweep["rounds"].values)
+        lines["torque"] = torque(_shaft_work(sweep["ledger"]), sweep["rounds"].values)
     if "wear" in sweep:
         lines["worn_volume"] = worn_volume(sweep["wear"].values, width, radius)
     if stress:
         lines["alternating"] = np.array(
             [row.get("alternating", np.nan) for row in stress["speeds"]]
         )
-    known = {name: np.where(response.has_result, of, np.nan) for name, of in lines.items()}
+    with_result = {
+        name: np.where(response.has_result, values, np.nan) for name, values in lines.items()
+    }
     opening = float(mean_opening(np.ones((len(width), 1)), width, radius))
     volume = float(worn_volume(np.ones((len(width), 1)), width, radius))
-    of = told["scene"], response.speeds, known, told["peaks"], opening / volume
-    return Loads(*of, scene.no_torque)
+    fields = results["scene"], response.speeds, with_result, results["peaks"], opening / volume
+    return Loads(*fields, scene.no_torque)
 
 
-def _of_shaft(ledger: xr.DataArray) -> NDArray[np.float64]:
+def _shaft_work(ledger: xr.DataArray) -> NDArray[np.float64]:
     """Work of the shaft (speeds,), J: of the casing on the rods, and against friction."""
     parts = [name for name in ("casing", "friction", "heat") if name in ledger["energy"]]
     return ledger.sel(energy=parts).sum("energy", skipna=False).values
@@ -95,17 +97,17 @@ def panels(
     loads: Sequence[Loads], f1: float, blade: str, operating: Mapping[str, Any] = NO_LINES
 ) -> Figure:
     """A panel for each number that is known, lines over the speed, and the peaks with their ±."""
-    shown = [panel for panel in PANELS if any(_has(of, panel[0]) for of in loads)]
+    shown = [panel for panel in PANELS if any(_has(scene, panel[0]) for scene in loads)]
     drawn, grid = style.subplots(
         style.DOUBLE, 1.2 + 1.25 * len(shown), len(shown), letters=True, sharex=True, squeeze=False
     )
     used = grid[:, 0]
     for axes, (name, label, scale) in zip(used, shown, strict=True):
-        for at, of in enumerate(loads):
-            _draw(axes, of, name, scale, at)
+        for number, scene in enumerate(loads):
+            _draw(axes, scene, name, scale, number)
         axes.set(ylabel=label, ylim=(0, None))
         if name == "worn_volume":
-            per_mm3 = MICRO / CUBIC_MM * loads[0].opening_per_volume
+            per_mm3 = units.MICRO / CUBIC_MM * loads[0].opening_per_volume
             style.beside(axes, per_mm3, "mean worn depth (µm)")
         if name == "torque":
             axes.set_title(_unknown(loads), loc="right", fontsize=7)
@@ -119,27 +121,29 @@ def panels(
 
 def _unknown(loads: Sequence[Loads]) -> str:
     """Of which scenes the model has no torque, and why."""
-    return "; ".join(f"not known of {of.name}: {of.no_torque}" for of in loads if of.no_torque)
+    return "; ".join(
+        f"not known of {scene.name}: {scene.no_torque}" for scene in loads if scene.no_torque
+    )
 
 
 def _has(loads: Loads, name: str) -> bool:
     return name in loads.lines or any(name in peak["numbers"] for peak in loads.peaks)
 
 
-def _draw(axes: Axes, loads: Loads, name: str, scale: float, at: int) -> None:
+def _draw(axes: Axes, loads: Loads, name: str, scale: float, number: int) -> None:
     """The line of a number over the speed where it is known, and its peaks with their ±."""
-    look = LOOKS[at % len(LOOKS)]
+    look = LOOKS[number % len(LOOKS)]
     if name in loads.lines:
         axes.plot(loads.speeds, scale * loads.lines[name], label=f"scene {loads.name}", **look)
-    told = [peak for peak in loads.peaks if name in peak["numbers"]]
-    if told:
-        values = scale * np.array([peak["numbers"][name] for peak in told])
-        errors = scale * np.array([peak["errors"][name] or np.nan for peak in told])
+    peaks = [peak for peak in loads.peaks if name in peak["numbers"]]
+    if peaks:
+        values = scale * np.array([peak["numbers"][name] for peak in peaks])
+        errors = scale * np.array([peak["errors"][name] or np.nan for peak in peaks])
         axes.errorbar(
-            [peak["Omega_c"] for peak in told],
+            [peak["Omega_c"] for peak in peaks],
             values,
             np.where(np.isfinite(errors), errors, 0.0),
-            fmt=MARKERS[at % len(MARKERS)],
+            fmt=MARKERS[number % len(MARKERS)],
             color=look["color"],
             markerfacecolor="white",
             markersize=3.5,

@@ -45,11 +45,13 @@ def through_peak(
     drawn, panels = style.subplots(
         style.DOUBLE, 2.9, 1, 3, letters=True, width_ratios=(1, 1.25, 1.25)
     )
-    rounds = np.cumsum([of.scene.rounds for of in long])
+    rounds = np.cumsum([response.scene.rounds for response in long])
     after = [
-        {"rounds": at, "speed": f"{speed:.3f}", "amplitude": amplitude}
-        for at, of in zip(rounds, long, strict=True)
-        for speed, amplitude in zip(of.speeds, along_order(of.sweep, ORDER), strict=True)
+        {"rounds": revolutions, "speed": f"{speed:.3f}", "amplitude": amplitude}
+        for revolutions, response in zip(rounds, long, strict=True)
+        for speed, amplitude in zip(
+            response.speeds, along_order(response.sweep, ORDER), strict=True
+        )
     ]
     lines.curves(panels[0], after, "rounds", "amplitude", "speed", markerfacecolor="white")
     panels[0].set(xscale="log", xlabel="revolutions", ylabel=LABELS["amplitude"], ylim=(0, None))
@@ -58,15 +60,15 @@ def through_peak(
     panels[0].legend(title=r"$\Omega/f_1(0)$", ncols=2, handlelength=2.2)
     through = [
         {"way": way, "speed": speed, "amplitude": amplitude, "wear": wear.max()}
-        for way, of in zip(WAYS, (rest, run_up, run_down, on_worn), strict=True)
+        for way, response in zip(WAYS, (rest, run_up, run_down, on_worn), strict=True)
         for speed, amplitude, wear in zip(
-            of.speeds, along_order(of.sweep, ORDER), of.wear, strict=True
+            response.speeds, along_order(response.sweep, ORDER), response.wear, strict=True
         )
         if speed >= run_up.speeds[0]
     ]
-    for axes, of in zip(panels[1:], LABELS, strict=True):
-        lines.curves(axes, through, "speed", of, "way", looks=[*WAYS.values()])
-        axes.set(xlabel=style.SPEED_LABEL, ylabel=LABELS[of], ylim=(0, None))
+    for axes, name in zip(panels[1:], LABELS, strict=True):
+        lines.curves(axes, through, "speed", name, "way", looks=[*WAYS.values()])
+        axes.set(xlabel=style.SPEED_LABEL, ylabel=LABELS[name], ylim=(0, None))
     drawn.legend(handles=panels[1].get_lines(), loc="outside lower right", ncols=len(WAYS))
     return drawn
 
@@ -74,15 +76,15 @@ def through_peak(
 @style.styled
 def growth(worst: dict[str, Any]) -> Figure:
     """Amplitude over successive windows of ten revolutions, and that of the bare rigid casing."""
-    of = {
+    by_name = {
         f"{case['name']}: $E$ = {case['E']:g}, $K$ = {case['K']:g}": case for case in worst["cases"]
     }
     rounds = [0, max(case["rounds"][-1] for case in worst["cases"])]
     rigid = worst["rigid"] | {"rounds": rounds, "amplitude": [worst["rigid"]["amplitude"]] * 2}
     records = [
-        {"rounds": at, "amplitude": amplitude, "case": f"{name},{_at(case)}"}
-        for name, case in (of | {"bare rigid casing": rigid}).items()
-        for at, amplitude in zip(case["rounds"], case["amplitude"], strict=True)
+        {"rounds": revolutions, "amplitude": amplitude, "case": f"{name},{_end(case)}"}
+        for name, case in (by_name | {"bare rigid casing": rigid}).items()
+        for revolutions, amplitude in zip(case["rounds"], case["amplitude"], strict=True)
     ]
     drawn = lines.draw(records, "rounds", "amplitude", line="case", labels=GROWTH)
     (axes,) = drawn.axes
@@ -90,11 +92,13 @@ def growth(worst: dict[str, Any]) -> Figure:
     axes.set(xlim=(0, None), ylim=(0, None))
     axes.xaxis.set_major_locator(MultipleLocator(2 * PAPER_ROUNDS))
     axes.axvline(PAPER_ROUNDS, color=style.GREY, linewidth=0.6, zorder=0)
-    at = axes.get_xaxis_transform()
-    style.note(axes, (PAPER_ROUNDS, 0.03), "end of the paper's runs", (3, 0), xycoords=at)
+    axis_transform = axes.get_xaxis_transform()
+    style.note(
+        axes, (PAPER_ROUNDS, 0.03), "end of the paper's runs", (3, 0), xycoords=axis_transform
+    )
     return drawn
 
 
-def _at(case: dict[str, Any]) -> str:
+def _end(case: dict[str, Any]) -> str:
     ends = "" if case["status"] == "ok" else f", {case['status']}"
     return rf" $\Omega_c/f_1(0)$ = {case['Omega_c']:.3f}{ends}"

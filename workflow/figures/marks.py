@@ -12,6 +12,7 @@ from matplotlib.patches import Patch
 from matplotlib.text import Annotation
 from numpy.typing import NDArray
 
+from geometry.blade import RPM_PER_HZ
 from rom.model import Rom
 from simulate.errors.neighbours import GAP_CHANGE
 from simulate.marching import SENSITIVE_FROM
@@ -19,7 +20,6 @@ from simulate.scene import DYING_OUT, GROWING
 from simulate.sweeps.peak import Peak
 from workflow.figures import style
 from workflow.figures.response import Response
-from workflow.figures.units import RPM_PER_HZ
 
 CASING_ANGLE = r"casing angle $\theta$ (deg)"
 NO_LINES: Mapping[str, Any] = MappingProxyType({"lines": {}})  # no operating speeds
@@ -44,17 +44,17 @@ def speed_text(response: Response, peak: Peak) -> str:
     return beyond + unit.number.format(unit.scale * peak.Omega_c) + goes_on
 
 
-def engine_order(axes: Axes, k: int, dashes: str, beside: float = 4) -> Annotation:
+def engine_order(axes: Axes, k: int, dashes: str, distance: float = 4) -> Annotation:
     """Draw the line k Omega within the axes' limits; return its label, at the end of the line.
 
-    ``beside``: points of type from the right-hand side of the axes to a label there.
+    ``distance``: points of type from the right-hand side of the axes to a label there.
     """
     right, top = axes.get_xlim()[1], axes.get_ylim()[1]
     end = min(right, top / k)
     axes.plot([0, end], [0, k * end], dashes, color=style.GREY, linewidth=0.8, zorder=1)
-    at_right = {"offset": (beside, 0), "ha": "left", "va": "center"}
+    outside = {"offset": (distance, 0), "ha": "left", "va": "center"}
     above = {"offset": (0, 2), "ha": "center", "va": "bottom"}
-    return style.note(axes, (end, k * end), f"EO {k}", **(at_right if end == right else above))
+    return style.note(axes, (end, k * end), f"EO {k}", **(outside if end == right else above))
 
 
 def operating_lines(
@@ -62,17 +62,17 @@ def operating_lines(
     axes: Axes,
     f1_Hz: float,
     lines: Mapping[str, float],
-    told: Mapping[str, str] = NO_TEXTS,
+    texts: Mapping[str, str] = NO_TEXTS,
 ) -> None:
     """Draw operating speeds (rpm, by name), with a legend below.
 
-    ``drawn``: figure of that legend; None without it. ``told``: its texts, by name.
+    ``drawn``: figure of that legend; None without it. ``texts``: its texts, by name.
     """
     handles, labels = [], []
     for (name, rpm), dashes in zip(lines.items(), OPERATING, strict=False):
         look = {"color": style.GREEN, "linestyle": dashes, "linewidth": 1.2, "zorder": 1.5}
         handles.append(axes.axvline(rpm / (RPM_PER_HZ * f1_Hz), **look))
-        labels.append(told.get(name, f"{name} {rpm:.0f} rpm"))
+        labels.append(texts.get(name, f"{name} {rpm:.0f} rpm"))
     if handles and drawn:
         drawn.legend(handles, labels, loc="outside lower right", handlelength=2.5)
         text = "\n".join(labels)
@@ -103,8 +103,8 @@ def _row(axes: Axes, height: float, face: str, title: str, speeds: dict[int, flo
     across = axes.get_xaxis_transform()
     axes.text(0.005, height, f"{title}, EO", transform=axes.transAxes, fontsize=7, va="center")
     look = {"color": style.BLACK, "markerfacecolor": face, "markersize": 4, "clip_on": False}
-    at = list(speeds.values())
-    axes.plot(at, [height] * len(at), "v", transform=across, label=title, **look)
+    places = list(speeds.values())
+    axes.plot(places, [height] * len(places), "v", transform=across, label=title, **look)
     for k, speed in speeds.items():
         style.note(axes, (speed, height), str(k), (0, 3.5), xycoords=across, ha="center")
 
@@ -115,17 +115,17 @@ def hatch(drawn: Figure, panels: Sequence[Axes], response: Response, observable:
     A legend below the figure explains the hatches that occur, and the colour where nothing was run.
     """
     ends = Counter(response.status[~response.has_result].tolist())
-    listed = "not ok: " + ", ".join(f"{word} ({n})" for word, n in ends.items())
+    listed = "not ok: " + ", ".join(f"{status} ({n})" for status, n in ends.items())
     digits, share = -np.log10(GAP_CHANGE), 100 * SENSITIVE_FROM
     sensitive = (
         f"not predictable: changing all gaps by one part in $10^{{{digits:.0f}}}$ changes the "
         f"{observable} by over {share:g} %"
     )
-    apart = response.status == "no-contact"
+    no_contact = response.status == "no-contact"
     white = {"facecolor": "white"}
     looks = (
         (~response.has_result, white | {"hatch": NO_RESULT}, listed),
-        (apart, white | {"hatch": NO_CONTACT}, f"no contact ({apart.sum()})"),
+        (no_contact, white | {"hatch": NO_CONTACT}, f"no contact ({no_contact.sum()})"),
         (response.sensitive(observable), {"fill": False, "hatch": NOT_PREDICTABLE}, sensitive),
     )
     handles = [Patch(facecolor=style.NO_RUN, label="no run")]
@@ -142,10 +142,10 @@ def _bands(
 ) -> None:
     """Hatch the cells of the speeds ``which``, adjoining ones in one band."""
     low, high = (ends[which] for ends in style.spans(speeds))
-    apart = low[1:] != high[:-1]
-    for at, after in zip(low[np.r_[True, apart]], high[np.r_[apart, True]], strict=True):
+    separate = low[1:] != high[:-1]
+    for begin, after in zip(low[np.r_[True, separate]], high[np.r_[separate, True]], strict=True):
         for axes in panels:
-            axes.axvspan(at, after, **look)
+            axes.axvspan(begin, after, **look)
 
 
 def frequencies_over_speed(rom: Rom, modes: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -15,8 +15,8 @@ NO_LABELS: Labels = MappingProxyType({})
 def split(records: Records, column: str) -> dict[Any, pd.DataFrame]:
     """Records by their value of a column, in the order in which these occur; without one by ""."""
     frame = pd.DataFrame(records)
-    of = frame[column].fillna("") if column else pd.Series("", frame.index)
-    return dict([*frame.groupby(of, sort=False)])
+    values = frame[column].fillna("") if column else pd.Series("", frame.index)
+    return dict([*frame.groupby(values, sort=False)])
 
 
 def labelled(labels: Labels, name: Any) -> str:

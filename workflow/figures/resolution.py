@@ -30,12 +30,14 @@ def wear(coarse: Response, fine: Response) -> Figure:
     shared = {"letters": True, "sharex": True, "squeeze": False}
     drawn, panels = style.subplots(style.SINGLE, 0.7 + 1.45 * number, number, **shared)
     for i, axes in enumerate(panels[:, 0]):
-        depths = [of.wear[i] for of in (coarse, fine)]
-        for of, depth, look in zip((coarse, fine), depths, LOOKS[::2], strict=True):
-            over_casing(axes, depth, label=_rods(of), **look)
+        depths = [run.wear[i] for run in (coarse, fine)]
+        for run, depth, look in zip((coarse, fine), depths, LOOKS[::2], strict=True):
+            over_casing(axes, depth, label=_rods(run), **look)
         on_finest = [on_rods(depth[None], len(depths[-1]))[0] for depth in depths]
-        known = all(of.has_result[i] for of in (coarse, fine))
-        axes.text(s=_apart(on_finest) if known else "no result", transform=axes.transAxes, **SAID)
+        both = all(run.has_result[i] for run in (coarse, fine))
+        axes.text(
+            s=_distances(on_finest) if both else "no result", transform=axes.transAxes, **SAID
+        )
         axes.set(title=_title([coarse, fine], i), ylim=(0, (1 + HEADROOM) * np.max(on_finest)))
         axes.label_outer()
     drawn.supylabel(f"{style.WORN}, {style.OVER_GAP}", fontsize=8)
@@ -53,15 +55,15 @@ def displacement(coarse: Response, fine: Response, steps: Sequence[Response]) ->
     for (start, end), (runs, name) in zip(panels, compared, strict=True):
         samples = runs[0].scene.record.samples_per_round
         looks = (*LOOKS[: len(runs) - 1], LOOKS[-1])
-        u_r = np.array([of.u_r[-1] for of in runs])
+        u_r = np.array([run.u_r[-1] for run in runs])
         rounds, (low, high) = u_r.shape[1] // samples, (np.nanmin(u_r), np.nanmax(u_r))
         shown = (start, 0, min(FIRST_ROUNDS, rounds)), (end, rounds - 1, rounds)
         for axes, first, last in shown:
             part = slice(first * samples, last * samples)
             time = np.arange(part.start + 1, part.stop + 1) / samples  # first after one sample
-            for of, line, look in zip(runs, u_r[:, part], looks, strict=True):
-                axes.plot(time, line, label=name(of), **look)
-            axes.text(s=_apart(u_r[:, part]), transform=axes.transAxes, **SAID)
+            for run, line, look in zip(runs, u_r[:, part], looks, strict=True):
+                axes.plot(time, line, label=name(run), **look)
+            axes.text(s=_distances(u_r[:, part]), transform=axes.transAxes, **SAID)
             axes.set_xlim(first, last)
         start.set(
             ylim=(low - FOOTROOM * (high - low), high + HEADROOM * (high - low)),
@@ -88,11 +90,11 @@ def _step(response: Response) -> str:
 
 def _title(runs: Sequence[Response], i: int) -> str:
     """Speed of the runs, and how those end that are not ok."""
-    ends = ", ".join(sorted({str(of.status[i]) for of in runs} - {"ok"}))
+    ends = ", ".join(sorted({str(run.status[i]) for run in runs} - {"ok"}))
     return rf"$\Omega/f_1(0)$ = {runs[0].speeds[i]:.3f}" + (f" ({ends})" if ends else "")
 
 
-def _apart(lines: Sequence[NDArray[np.float64]]) -> str:
+def _distances(lines: Sequence[NDArray[np.float64]]) -> str:
     """Relative differences of all lines from the last."""
-    apart = ", ".join(percent(distance(line, lines[-1])) for line in lines[:-1])
-    return f"$L_2$ from the finest: {apart}"
+    distances = ", ".join(percent(distance(line, lines[-1])) for line in lines[:-1])
+    return f"$L_2$ from the finest: {distances}"

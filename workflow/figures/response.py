@@ -99,8 +99,8 @@ class Response:
         """
         if observable not in self.observables:
             return np.zeros(len(self.speeds), bool)
-        difference = self.sweep["departure" if "departure" in self.sweep else "error"]
-        difference = difference.sel(observable=observable).values
+        kind = "departure" if "departure" in self.sweep else "error"
+        difference = self.sweep[kind].sel(observable=observable).values
         return (self.status == "sensitive") & (difference > SENSITIVE_FROM)
 
     @property
@@ -135,9 +135,9 @@ def liner_and_tip(scene: Scene) -> str:
     law, contact = scene.liner.law, scene.contact
     unit = getattr(law, "unit_Pa", None)
     listed = [
-        f"${SYMBOLS.get(name, name)}$ = {PASCAL(rounded(unit * of, 3)) if unit else f'{of:g}'}"
-        for name, of in law.model_dump(exclude={"kind", "unit_Pa"}).items()
-        if not isinstance(of, dict)  # a curve
+        f"${SYMBOLS.get(name, name)}$ = {PASCAL(rounded(unit * x, 3)) if unit else f'{x:g}'}"
+        for name, x in law.model_dump(exclude={"kind", "unit_Pa"}).items()
+        if not isinstance(x, dict)  # a curve
     ]
     label = ", ".join([law.kind, *listed]) if listed else f"liner: {law.kind}"
     if contact.profile is None:

@@ -74,12 +74,12 @@ def over_speeds(
     drawn, (top, bottom) = style.subplots(
         style.DOUBLE, 5.5, 2, letters=True, sharex=True, height_ratios=(1.8, 1)
     )
-    scale = sweep.units["length"][0].scale
-    scale = style.decades(scale * np.nanmax(sweep.spectrum[:, 1:], initial=0), DECADES)
-    _map(top, sweep, scale, label, highest)
+    largest = sweep.units["length"][0].scale * np.nanmax(sweep.spectrum[:, 1:], initial=0)
+    limits = style.decades(largest, DECADES)
+    _map(top, sweep, limits, label, highest)
     _overlay(top, sweep)
     _amplitudes(bottom, sweep, printed)
-    bottom.set_ylim(scale)
+    bottom.set_ylim(limits)
     hatch(drawn, (top, bottom), sweep, "spectrum")
     operating_lines(drawn, bottom, sweep.rom.f1, operating["lines"])
     # beyond the names of engine orders
@@ -158,11 +158,11 @@ def _printed(axes: Axes, response: Response, part: str) -> list[Patch]:
 
 def _name(axes: Axes, response: Response, peak: Peak) -> None:
     """Write k and the critical speed above the axes, with a line down to the peak."""
-    at = peak.Omega_c, response.units["length"][0].scale * peak.amplitude
-    axes.plot(*at, ".", color=style.BLACK, markersize=4)
+    place = peak.Omega_c, response.units["length"][0].scale * peak.amplitude
+    axes.plot(*place, ".", color=style.BLACK, markersize=4)
     axes.annotate(
         f"EO {peak.k}:  {speed_text(response, peak)}",
-        at,
+        place,
         (peak.Omega_c, 1.03),
         textcoords=axes.get_xaxis_transform(),
         rotation=90,
@@ -186,7 +186,7 @@ class Strain(Response):
 def of_gauge(sweep: Response, operating: Mapping[str, Any] = NO_LINES) -> Figure:
     """As ``over_speeds``, of the strain along the first grid by the vibration."""
     first = sweep.sweep["gauge_strain"].isel(gauge=0)
-    amplitudes = (SPEED, "bin"), [spectrum(of) for of in first.values]
+    amplitudes = (SPEED, "bin"), [spectrum(motion) for motion in first.values]
     strains = sweep.sweep.assign(spectrum=amplitudes).assign_attrs(gap_m=STRAIN)
     look = {"label": f"strain, gauge {first['gauge'].item()}", "highest": SHOWN_STRAIN}
     return over_speeds(Strain(strains, sweep.rom), operating=operating, **look)
@@ -194,17 +194,17 @@ def of_gauge(sweep: Response, operating: Mapping[str, Any] = NO_LINES) -> Figure
 
 def gauges_csv(sweep: Sweep) -> str:
     """A line for each speed and grid: of rotation, largest and least in all, half of the range."""
-    found = {"speed (rpm)": RPM * sweep["speed"], "status": sweep["status"]}
+    columns = {"speed (rpm)": RPM * sweep["speed"], "status": sweep["status"]}
     for name, unit, scale in (("strain", "µε", units.MICRO), ("stress", "MPa", 1 / units.MICRO)):
-        static, moving = (scale * sweep[f"gauge_{name}{of}"] for of in ("_static", ""))
+        static, moving = (scale * sweep[f"gauge_{name}{part}"] for part in ("_static", ""))
         highest, least = moving.max("gauge_time"), moving.min("gauge_time")
-        found |= {
+        columns |= {
             f"static {name} ({unit})": static,
             f"largest {name} ({unit})": static + highest,
             f"least {name} ({unit})": static + least,
             f"vibratory {name} ({unit})": (highest - least) / 2,
         }
-    table = xr.Dataset(found).reset_coords(drop=True)
+    table = xr.Dataset(columns).reset_coords(drop=True)
     return table.to_dataframe([SPEED, "gauge"]).to_csv(float_format="%.6g")
 
 
@@ -261,16 +261,16 @@ def _mark_modes(axes: Axes, modes: NDArray[np.float64]) -> None:
     look = {"xycoords": "axes fraction", "textcoords": "axes fraction", "va": "center"}
     labels = spread(modes / HIGHEST, APART)
     for m, (frequency, label) in enumerate(zip(modes, labels, strict=True), start=1):
-        at = (1.0, frequency / HIGHEST)
-        axes.annotate(rf"$f_{m}$", at, (1.02, label), arrowprops=line, fontsize=7.5, **look)
+        point = (1.0, frequency / HIGHEST)
+        axes.annotate(rf"$f_{m}$", point, (1.02, label), arrowprops=line, fontsize=7.5, **look)
 
 
-def spread(places: NDArray[np.float64], apart: float) -> NDArray[np.float64]:
-    """Ascending ``places`` moved to a distance of ``apart`` at least.
+def spread(places: NDArray[np.float64], distance: float) -> NDArray[np.float64]:
+    """Ascending ``places`` moved to a distance of ``distance`` at least.
 
     The mean of the places moved upwards as little as needed and those moved downwards.
     """
-    steps = apart * np.arange(len(places))
+    steps = distance * np.arange(len(places))
     up = np.maximum.accumulate(places - steps) + steps
     down = np.minimum.accumulate((places - steps)[::-1])[::-1] + steps
     return (up + down) / 2

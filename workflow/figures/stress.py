@@ -23,9 +23,9 @@ FIELD = "alternating stress (Pa), "  # and the speed: a name in ``stress.vtu``
 def draw(fields: views.Fields, stress: Mapping[str, Any]) -> Figure:
     """Both sides on one scale; ``fields`` is the blade of ``stress.vtu``, ``stress`` its names."""
     away = fields["away from clamp and contact"] > 0
-    known = {name: fields[name] / MEGA for name in fields.point_data if name.startswith(FIELD)}
+    stresses = {name: fields[name] / MEGA for name in fields.point_data if name.startswith(FIELD)}
     name, sigma = max(
-        known.items(), key=lambda of: of[1][away].max(), default=("", np.zeros(len(away)))
+        stresses.items(), key=lambda item: item[1][away].max(), default=("", np.zeros(len(away)))
     )
     levels = MaxNLocator(LEVELS).tick_values(0, max(sigma.max(), 1.0))
     look = style.MAP.resampled(len(levels) - 1), (levels[0], levels[-1]), LIGHT
@@ -38,7 +38,7 @@ def draw(fields: views.Fields, stress: Mapping[str, Any]) -> Figure:
         corners(fields.points),
         f"scene {stress['scene']}, blade {stress['blade']}, {name.removeprefix(FIELD)}\n"
         f"away from clamp and contact {sigma[away].max():.1f} MPa, anywhere {sigma.max():.1f} MPa"
-        if known
+        if stresses
         else f"scene {stress['scene']}, blade {stress['blade']}\nnot known at its peaks: they grow",
         shrink=0.9,
         aspect=30,

@@ -183,11 +183,11 @@ def legend(drawn: Figure, place: str, **look: Any) -> None:
 
 
 def note(
-    axes: Axes, at: tuple[Any, Any], text: str, offset: tuple[float, float], **look: Any
+    axes: Axes, place: tuple[Any, Any], text: str, offset: tuple[float, float], **look: Any
 ) -> Annotation:
-    """Write small ``text`` at an ``offset`` (points of type) from ``at``, also outside the axes."""
+    """Write small ``text``, outside the axes too, ``offset`` (points of type) from ``place``."""
     look = {"fontsize": 7, "annotation_clip": False} | look
-    return axes.annotate(text, at, offset, textcoords="offset points", **look)
+    return axes.annotate(text, place, offset, textcoords="offset points", **look)
 
 
 def measure(

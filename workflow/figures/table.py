@@ -14,14 +14,14 @@ DELIVERED = "delivered"  # the part of the table that a plain run delivers
 OF_SCENE = {  # demands on the value of a key of a scene
     "set": bool,
     "none": lambda value: value is None,
-    "rest": lambda at: at == "rest",
+    "rest": lambda value: value == "rest",
     "a YAML file": lambda path: path is not None and path.endswith((".yaml", ".yml")),
 }
 
 type Need = Literal["set", "none", "rest", "a YAML file", "matrices", "mesh", "fatigue"]
 
 
-class Row(Settings):
+class FigureRow(Settings):
     """A figure, or a figure of each blade or scene; the keys are explained in ``figures.yaml``."""
 
     title: str
@@ -39,7 +39,7 @@ class Row(Settings):
     category: str  # of the report
 
 
-class Of(NamedTuple):
+class FigureSubject(NamedTuple):
     """Blade, scenes and directions of a figure."""
 
     blade: str | None
@@ -47,7 +47,7 @@ class Of(NamedTuple):
     directions: str | None
 
 
-def read(path: str | Path) -> dict[str, Row]:
+def read(path: str | Path) -> dict[str, FigureRow]:
     """Rows of a table by name; one with a ``like`` has its missing keys from that row.
 
     Raises
@@ -65,7 +65,7 @@ def read(path: str | Path) -> dict[str, Row]:
         if (like := row.get("like", name)) not in raw:
             raise SettingsError("no such row", key=f"{name}.like", value=like, file=path)
     whole = {name: merged(raw[row.get("like", name)], row) for name, row in raw.items()}
-    return {name: check_settings(Row, row, f"{path}: {name}") for name, row in whole.items()}
+    return {name: check_settings(FigureRow, row, f"{path}: {name}") for name, row in whole.items()}
 
 
 def path_of(name: str) -> str:
@@ -76,7 +76,7 @@ def path_of(name: str) -> str:
 class Figures(NamedTuple):
     """The figures of a project. ``wildcards``: those of a row's name, with their values."""
 
-    rows: Mapping[str, Row]  # by name
+    rows: Mapping[str, FigureRow]  # by name
     scenes: Mapping[str, Scene]  # all
     delivered: Mapping[str, Scene]  # those of workflow/config.yaml
     stressed: Collection[str]  # scenes whose stresses are known
@@ -84,7 +84,7 @@ class Figures(NamedTuple):
     operating: Callable[[str], Mapping[str, float]]  # speeds of a blade by name, rpm
     blades: Mapping[str, Callable[[str], bool]]  # whether a blade meets a need of a figure
 
-    def of(self, name: str, wildcards: Mapping[str, str]) -> Of:
+    def subject(self, name: str, wildcards: Mapping[str, str]) -> FigureSubject:
         """Blade and scenes of a figure, and the directions of their interface."""
         row = self.rows[name]
         blade, scenes = wildcards.get("blade", row.blade), row.scenes
@@ -94,8 +94,8 @@ class Figures(NamedTuple):
             scenes = self._with_loads(blade)
         if scenes and blade is None:
             scene = self.scenes[scenes[0]]
-            return Of(scene.blade, scenes, scene.directions)
-        return Of(blade, scenes, blade and self.directions(blade))
+            return FigureSubject(scene.blade, scenes, scene.directions)
+        return FigureSubject(blade, scenes, blade and self.directions(blade))
 
     def files(self, name: str, wildcards: Mapping[str, str]) -> dict[str, str | list[str]]:
         """Paths of the files of a figure, by name.
@@ -105,51 +105,54 @@ class Figures(NamedTuple):
         SettingsError
             When its blade or a scene does not meet a need of the figure.
         """
-        row, of = self.rows[name], self.of(name, wildcards)
-        for fault in self._faults(row, of):
+        row, subject = self.rows[name], self.subject(name, wildcards)
+        for fault in self._faults(row, subject):
             raise fault
-        known = {**wildcards, **of._asdict(), "name": name.format_map(wildcards)}
-        stressed = [scene for scene in of.scenes if scene in self.stressed]
+        fields = {**wildcards, **subject._asdict(), "name": name.format_map(wildcards)}
+        stressed = [scene for scene in subject.scenes if scene in self.stressed]
 
         def paths(pattern: str) -> list[str]:
-            each = stressed if "{stressed}" in pattern else of.scenes or [""]
-            filled = (pattern.format_map(known | {"scene": s, "stressed": s}) for s in each)
+            """Paths of a pattern, one for each scene where it depends on these."""
+            each = stressed if "{stressed}" in pattern else subject.scenes or [""]
+            filled = (pattern.format_map(fields | {"scene": s, "stressed": s}) for s in each)
             return [*dict.fromkeys(filled)]  # one where it does not depend on the scene
 
         return {
-            key: paths(of_key)[0]
-            if isinstance(of_key, str)
-            else [path for pattern in of_key for path in paths(pattern)]
-            for key, of_key in row.files.items()
+            key: paths(patterns)[0]
+            if isinstance(patterns, str)
+            else [path for pattern in patterns for path in paths(pattern)]
+            for key, patterns in row.files.items()
         }
 
     def given(self, name: str, wildcards: Mapping[str, str]) -> dict[str, Any]:
         """Further arguments of ``draw``: those of the row, and operating speeds where there are."""
-        row, blade = self.rows[name], self.of(name, wildcards).blade
+        row, blade = self.rows[name], self.subject(name, wildcards).blade
         speeds = self.operating(blade) if row.operating else {}
         return row.given | ({"operating": speeds} if speeds else {})
 
     def caption(self, name: str, wildcards: Mapping[str, str]) -> str:
         """Caption in the report, with the names of blade and scenes."""
-        row, of = self.rows[name], self.of(name, wildcards)
-        return f"{row.caption} {row.more}".format(blade=of.blade, scene=", ".join(of.scenes))
+        row, subject = self.rows[name], self.subject(name, wildcards)
+        return f"{row.caption} {row.more}".format(
+            blade=subject.blade, scene=", ".join(subject.scenes)
+        )
 
-    def configured(self, wanted: Callable[[Row], bool]) -> list[str]:
+    def configured(self, wanted: Callable[[FigureRow], bool]) -> list[str]:
         """Names of the wanted figures of configured blades and scenes whose needs are met.
 
         A row of the same category that is like another for its blade or scene is there instead.
         """
-        found = [
-            (name, row, at, self.of(name, at))
+        candidates = [
+            (name, row, wildcards, self.subject(name, wildcards))
             for name, row in self.rows.items()
             if wanted(row)
-            for at in self._configured(name)
+            for wildcards in self._configured(name)
         ]
-        instead = [(row.like, row.category, of) for _, row, _, of in found]
+        instead = [(row.like, row.category, subject) for _, row, _, subject in candidates]
         return [
-            name.format_map(at)
-            for name, row, at, of in found
-            if self._ready(row, of) and (name, row.category, of) not in instead
+            name.format_map(wildcards)
+            for name, row, wildcards, subject in candidates
+            if self._ready(row, subject) and (name, row.category, subject) not in instead
         ]
 
     def _configured(self, name: str) -> list[dict[str, str]]:
@@ -162,21 +165,21 @@ class Figures(NamedTuple):
             return [{"scene": scene} for scene in scenes]
         return [{}] if {*row.scenes} <= {*scenes} and row.blade in (None, *blades) else []
 
-    def _ready(self, row: Row, of: Of) -> bool:
+    def _ready(self, row: FigureRow, subject: FigureSubject) -> bool:
         """Whether the sweep, or the design, of each scene meets the needs of the figure."""
-        designs = {bool(self.delivered[scene].design) for scene in of.scenes}
-        return designs <= {"design" in row.needs} and not any(self._faults(row, of))
+        designs = {bool(self.delivered[scene].design) for scene in subject.scenes}
+        return designs <= {"design" in row.needs} and not any(self._faults(row, subject))
 
-    def _faults(self, row: Row, of: Of) -> Iterator[SettingsError]:
+    def _faults(self, row: FigureRow, subject: FigureSubject) -> Iterator[SettingsError]:
         """Needs of a figure that its blade or scenes do not meet."""
-        if row.scenes and not of.scenes:
-            fault = f"no scene of blade {of.blade} in workflow/config.yaml has loads to draw"
+        if row.scenes and not subject.scenes:
+            fault = f"no scene of blade {subject.blade} in workflow/config.yaml has loads to draw"
             yield SettingsError(fault)
         for key, need in row.needs.items():
-            if key == "blade" and not self.blades[need](of.blade):
-                file = f"workflow/blades/{of.blade}.yaml"
+            if key == "blade" and not self.blades[need](subject.blade):
+                file = f"workflow/blades/{subject.blade}.yaml"
                 yield SettingsError(f"without the {need} that this figure needs", file=file)
-            for scene in of.scenes if key != "blade" else ():
+            for scene in subject.scenes if key != "blade" else ():
                 if not OF_SCENE[need](attrgetter(key)(self.scenes[scene])):
                     file = f"workflow/scenes/{scene}.yaml"
                     yield SettingsError(f"must be {need} for this figure", key=key, file=file)

@@ -1,6 +1,6 @@
 """Pictures of the study of accuracy and time: errors over CPU time, changes by single choices."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from itertools import product
 from math import inf, isnan, nan
 from typing import Any
@@ -9,6 +9,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
 
+from workflow.experiment.row import ExperimentRow
 from workflow.figures import cells, lines, style
 from workflow.markdown import two_digits
 from workflow.study.levels import (
@@ -16,8 +17,8 @@ from workflow.study.levels import (
     OTHER_SCHEME,
     SCENES,
     front,
+    group_rows,
     levels,
-    of_group,
     uncertainty,
 )
 from workflow.study.trade_table import COUNTED, scheme_of, with_ratios
@@ -58,19 +59,17 @@ MINUS = "\N{MINUS SIGN}"
 FEWEST = 0.05  # %; changes below this are written as 0
 SAID = "change (%; of lobes: their number); CPU time saved (%)"
 
-type Run = Mapping[str, Any]
-
 
 @style.styled
-def settings(study: Sequence[Run]) -> Figure:
+def settings(study: Sequence[ExperimentRow]) -> Figure:
     """Error of each setting over CPU time, their Pareto front, and the three levels.
 
     ``study``: rows of the experiment. A panel for each scene; the error is the largest of four
     observables.
     """
-    drawn, of_levels = style.panels(len(SCENES), style.DOUBLE, 6.6), [*levels(study)]
+    drawn, each_level = style.panels(len(SCENES), style.DOUBLE, 6.6), [*levels(study)]
     unsure = with_floor(uncertainty(study))
-    tried = shown(of_group(study, "front"), unsure)
+    tried = shown(group_rows(study, "front"), unsure)
     best = shown(pd.concat(front(study, name) for name in SCENES), unsure)
     marks = dict(zip(sorted({*best["model"]}), MODELS, strict=False))
     for axes, name in zip(drawn.axes, SCENES, strict=True):
@@ -78,12 +77,12 @@ def settings(study: Sequence[Run]) -> Figure:
             axes.plot(same["cpu_s"], same["worst"], label="same model and rods, by step", **FAINT)
         stair = best[best["scene"] == name].sort_values("cpu_s")
         axes.step(stair["cpu_s"], stair["worst"], label="Pareto front of error and time", **STAIR)
-        for model, of in stair.groupby("model"):
-            axes.plot(of["cpu_s"], of["worst"], marker=marks[model], label=model, **MODEL)
-        for ring, level in zip(RINGS, of_levels, strict=True):
-            at = shown(level["of"][level["of"]["scene"] == name], unsure)
+        for model, runs in stair.groupby("model"):
+            axes.plot(runs["cpu_s"], runs["worst"], marker=marks[model], label=model, **MODEL)
+        for ring, level in zip(RINGS, each_level, strict=True):
+            chosen = shown(level["of"][level["of"]["scene"] == name], unsure)
             label = f"{level['level']}: paper in {float(f'{level["paper_min"]:.2g}'):g} CPU min"
-            axes.plot(at["cpu_s"], at["worst"], marker=ring, label=label, **RING)
+            axes.plot(chosen["cpu_s"], chosen["worst"], marker=ring, label=label, **RING)
         axes.set(xscale="log", yscale="log", xlabel=LABELS["cpu_s"], ylabel=LABELS["worst"])
         axes.set_title(title(study, name), loc="right")
         axes.label_outer()
@@ -92,23 +91,23 @@ def settings(study: Sequence[Run]) -> Figure:
     return drawn
 
 
-def steps(study: Sequence[Run]) -> Figure:
+def steps(study: Sequence[ExperimentRow]) -> Figure:
     """Error of each observable, one to a row, over CPU time by scheme and step.
 
     ``study``: rows of the experiment. A column for each scene; all on one reduced model.
     """
-    tried = of_group(study, "scheme")
+    tried = group_rows(study, "scheme")
     other = tried[tried["row"] == OTHER_SCHEME].set_index("scene")[JUDGED].reindex(SCENES)
     unsure = with_floor(other)
-    found = shown(tried, unsure)
-    found["panel"] = [title(study, name) for name in found["scene"]]
+    records = shown(tried, unsure)
+    records["panel"] = [title(study, name) for name in records["scene"]]
     look = {"line": "scheme", "panel": "panel", "labels": LABELS, "log": "xy"}
-    drawn = lines.draw(found, "cpu_s", JUDGED, looks=LOOKS, **look)
+    drawn = lines.draw(records, "cpu_s", JUDGED, looks=LOOKS, **look)
     _shade(drawn, unsure, JUDGED)
     return drawn
 
 
-def title(study: Sequence[Run], name: str) -> str:
+def title(study: Sequence[ExperimentRow], name: str) -> str:
     """Scene and its speed."""
     settings = next(row["settings"] for row in study if row["scene"] == name)
     return f"{name}, $\\Omega/f_1(0)$ = {settings['speeds']['over_f1'][0]:g}"
@@ -119,9 +118,9 @@ def with_floor(unsure: pd.DataFrame) -> pd.DataFrame:
 
     The last row has the lower ends of axes that show the least of them.
     """
-    found = 100 * unsure.replace([0, inf], nan)
-    found.loc[FLOOR] = (BELOW * found.min()).fillna(UNKNOWN)
-    return found
+    percent = 100 * unsure.replace([0, inf], nan)
+    percent.loc[FLOOR] = (BELOW * percent.min()).fillna(UNKNOWN)
+    return percent
 
 
 def shown(runs: pd.DataFrame, unsure: pd.DataFrame) -> pd.DataFrame:
@@ -130,10 +129,10 @@ def shown(runs: pd.DataFrame, unsure: pd.DataFrame) -> pd.DataFrame:
     Errors are drawn at the lower end of their axis at least; those not known are nan.
     """
     floor, names = unsure.loc[FLOOR], runs["names"].str
-    known = (100 * runs[floor.index].replace(inf, nan)).clip(lower=floor, axis="columns")
+    errors = (100 * runs[floor.index].replace(inf, nan)).clip(lower=floor, axis="columns")
     about = {"scheme": runs["settings"].map(scheme_of), "steps": runs["numbers"].str["steps"]}
-    found = runs.assign(**known, **about, model=names[0], rods=names[-1])
-    return found.sort_values(["scene", "scheme", "steps"])
+    described = runs.assign(**errors, **about, model=names[0], rods=names[-1])
+    return described.sort_values(["scene", "scheme", "steps"])
 
 
 def _shade(drawn: Figure, unsure: pd.DataFrame, errors: Sequence[str]) -> None:
@@ -150,16 +149,16 @@ def _shade(drawn: Figure, unsure: pd.DataFrame, errors: Sequence[str]) -> None:
     drawn.suptitle("shaded: below the uncertainty of the reference", fontsize=7)
 
 
-def changes(study: Sequence[Run], groups: Sequence[str] = ("feature",)) -> Figure:
+def changes(study: Sequence[ExperimentRow], groups: Sequence[str] = ("feature",)) -> Figure:
     """One matrix for each scene: rows of the ``groups`` down, observables and time saved across."""
     changed = with_ratios(study, *groups)
     saved, named = 100 * (1 - changed["time_ratio"]), changed["row"].str.replace(": ", " → ")
     changed = changed.assign(time=saved, row=named)
-    known = changed[[*COLUMNS]].dropna(axis=1, how="all")
+    columns = changed[[*COLUMNS]].dropna(axis=1, how="all")
     records = [
         {"scene": row["scene"], "row": row["row"], "of": key} | _cell(key, row[key])
         for row in changed.to_dict("records")
-        for key in known
+        for key in columns
     ]
     look = {"panel": "scene", "labels": COLUMNS | {"change": SAID}, "limits": SHOWN, "log": True}
     return cells.draw(records, "of", "row", "change", text="text", **look)

@@ -10,9 +10,9 @@ import numpy as np
 from matplotlib.axis import Axis
 from matplotlib.ticker import AutoLocator
 
+from geometry.blade import RPM_PER_HZ
 from workflow.figures import style
 
-RPM_PER_HZ = 60.0
 MICRO = 1e6
 
 
@@ -47,6 +47,6 @@ def show(
     axis.set_label_text(first.label)
     if first.scale != 1.0:
         low, high = first.scale * axis.get_view_interval()
-        within = [at for at in AutoLocator().tick_values(low, high) if low <= at <= high]
-        axis.set_ticks(np.divide(within, first.scale), [f"{at:.6g}" for at in within])
+        within = [tick for tick in AutoLocator().tick_values(low, high) if low <= tick <= high]
+        axis.set_ticks(np.divide(within, first.scale), [f"{tick:.6g}" for tick in within])
     second_axis(axis.axes, second.scale, second.label, **place)

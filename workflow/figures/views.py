@@ -144,8 +144,10 @@ def gallery(
         middle, *places = pixels(grid, view, np.array([grid.center, *names.values()]))
         for name, place in zip(names, places, strict=True):
             away = (place - middle) / np.linalg.norm(place - middle)
-            at = place - (seen[1].start, seen[0].start)
-            style.note(axes, tuple(at), name, (7 * away[0], -7 * away[1]), ha="center", va="center")
+            pixel = place - (seen[1].start, seen[0].start)
+            style.note(
+                axes, tuple(pixel), name, (7 * away[0], -7 * away[1]), ha="center", va="center"
+            )
     mappable = ScalarMappable(Normalize(*limits), colours)
     drawn.colorbar(mappable, ax=list(panels), location="bottom", **bar)
     drawn.suptitle(heading, fontsize=8, linespacing=1.3)

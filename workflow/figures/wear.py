@@ -68,12 +68,16 @@ def _printed(axes: Axes, response: Response, part: str) -> None:
     A pattern whose speed it prints stands there, unless a crossing goes with it.
     """
     off, orders = LOBES[part]
-    at = [(speed, off) for speed in response.speeds[response.has_result][[0, -1]]]
-    speeds = {k: peak.Omega_c for k, peak in response.by_order.items()}
-    speeds |= {k: speed for k, speed in CRITICAL[part].items() if k not in CROSSING}
-    at += [(speeds[k], k) for k in orders if k in speeds]
+    speeds = {
+        **{k: peak.Omega_c for k, peak in response.by_order.items()},
+        **{k: speed for k, speed in CRITICAL[part].items() if k not in CROSSING},
+    }
+    points = [
+        *((speed, off) for speed in response.speeds[response.has_result][[0, -1]]),
+        *((speeds[k], k) for k in orders if k in speeds),
+    ]
     square = {"markersize": 6, "markerfacecolor": "none", "color": style.VERMILLION}
-    axes.plot(*zip(*at, strict=True), "s", label="lobes in the paper", clip_on=False, **square)
+    axes.plot(*zip(*points, strict=True), "s", label="lobes in the paper", clip_on=False, **square)
     axes.legend(loc="upper center", ncols=2, handletextpad=0.2, borderaxespad=0.1)
 
 

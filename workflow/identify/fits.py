@@ -33,36 +33,36 @@ def drawn(tables: Sequence[xr.Dataset]) -> xr.Dataset:
     points = every["points"].values
     density = np.full(len(points), float(tables[0].sizes["point"]))
     for i in range(1, len(tables)):
-        own = proposal(tables[:i], points, tables[i].attrs["data"])
-        density += tables[i].sizes["point"] * own
+        density += tables[i].sizes["point"] * proposal(tables[:i], points, tables[i].attrs["data"])
     return every.assign(density=("point", density))
 
 
-def of_prior(priors: Priors) -> dict[str, Any]:
+def prior_numbers(priors: Priors) -> dict[str, Any]:
     """Ranges and share of casings as those of a posterior (``fit``), before any datum."""
     levels = np.repeat(np.array(LEVELS)[:, None], len(NAMES), axis=1)
     return {
-        "ranges": {name: of.tolist() for name, of in priors.values(levels).items()},
+        "ranges": {name: quantiles.tolist() for name, quantiles in priors.values(levels).items()},
         "four_places": priors.fourth_over_second.place(TWO_NEAREST),
     }
 
 
-def fit(of: Fit, marched: xr.Dataset, values: Values) -> dict[str, Any]:
+def fit(data_fit: Fit, marched: xr.Dataset, values: Values) -> dict[str, Any]:
     """Numbers of a fit, with the shifts as data, and with C12 and C16 besides.
 
     "met": number of points at which all deviations are within one sigma, and the data besides hold;
     "four_places": share of the casings that are nearest at four places instead of two.
     """
     points, shifts = marched["points"].values, marched["over_crossing"].values
-    deviations, chi_squared = of.deviations(shifts), of.chi_squared(shifts)
+    deviations, chi_squared = data_fit.deviations(shifts), data_fit.chi_squared(shifts)
     likelihood, best = np.exp(-chi_squared / 2), int(chi_squared.argmin())
-    of_main_peak = Fit(of.K, "k = 4").deviations(shifts)
-    agrees, met = ((abs(off) <= 1).all(axis=1) for off in (of_main_peak, deviations))
-    both = of.stiffer_is_more(marched)
+    main_peak = Fit(data_fit.K, "k = 4").deviations(shifts)
+    agrees, within_sigma = ((abs(off) <= 1).all(axis=1) for off in (main_peak, deviations))
+    both = data_fit.stiffer_is_more(marched)
 
     def posterior(by: NDArray[np.bool_]) -> dict[str, Any]:
-        of_data = weighted(points, likelihood * by, marched["density"].values)
-        return _posterior(of_data, points, values, agrees) | {"met": int((met & by).sum())}
+        """Numbers with the likelihood of the points ``by`` alone."""
+        by_data = weighted(points, likelihood * by, marched["density"].values)
+        return _posterior(by_data, points, values, agrees) | {"met": int((within_sigma & by).sum())}
 
     return {
         "chi_squared": float(chi_squared[best]),
@@ -76,21 +76,23 @@ def fit(of: Fit, marched: xr.Dataset, values: Values) -> dict[str, Any]:
 
 
 def _posterior(
-    of: Weighted, points: Points, values: Values, agrees: NDArray[np.bool_]
+    sample: Weighted, points: Points, values: Values, agrees: NDArray[np.bool_]
 ) -> dict[str, Any]:
     """Numbers of a posterior; its medoid is one of the points whose EO 4 peaks agree."""
-    supported, ranges, draws = agrees & (of.weights > 0), None, []
-    if of.effective >= ENOUGH:
-        by = {"weights": of.weights, "method": "inverted_cdf"}
-        ranges = {name: np.quantile(of, LEVELS, **by).tolist() for name, of in values.items()}
-        draws = systematic(of.weights, DRAWS, np.random.default_rng(SEED)).tolist()
+    supported, ranges, draws = agrees & (sample.weights > 0), None, []
+    if sample.effective >= ENOUGH:
+        by = {"weights": sample.weights, "method": "inverted_cdf"}
+        ranges = {
+            name: np.quantile(samples, LEVELS, **by).tolist() for name, samples in values.items()
+        }
+        draws = systematic(sample.weights, DRAWS, np.random.default_rng(SEED)).tolist()
     return {
-        "effective": of.effective,
-        "evidence": of.evidence,
-        "weights": of.weights.tolist(),
+        "effective": sample.effective,
+        "evidence": sample.evidence,
+        "weights": sample.weights.tolist(),
         "ranges": ranges,
-        "four_places": float((values["fourth_over_second"] < TWO_NEAREST) @ of.weights),
-        "medoid": medoid(points, of.weights, supported) if supported.any() else None,
+        "four_places": float((values["fourth_over_second"] < TWO_NEAREST) @ sample.weights),
+        "medoid": medoid(points, sample.weights, supported) if supported.any() else None,
         "draws": draws,
     }
 
@@ -101,7 +103,7 @@ def posterior_of(fits: Mapping[str, Any], name: str) -> dict[str, Any]:
     return fits["fits"][Fit(K, fits["served"]).name][data]
 
 
-def off_medoid(fits: Mapping[str, Any], points: Points, at: NDArray[np.float64]) -> float | None:
+def off_medoid(fits: Mapping[str, Any], points: Points, point: NDArray[np.float64]) -> float | None:
     """Mean distance of a point from all points of ``TAKEN``, over that of its medoid, less 1.
 
     None without a medoid; 0: as central as the medoid.
@@ -109,6 +111,6 @@ def off_medoid(fits: Mapping[str, Any], points: Points, at: NDArray[np.float64])
     taken = posterior_of(fits, TAKEN)
     if taken["medoid"] is None:
         return None
-    pair = np.stack([at, points[taken["medoid"]]])
-    here, least = mean_distance(points, np.array(taken["weights"]), pair)
-    return float(here / least - 1)
+    pair = np.stack([point, points[taken["medoid"]]])
+    distance, least = mean_distance(points, np.array(taken["weights"]), pair)
+    return float(distance / least - 1)

@@ -49,9 +49,9 @@ class Fit:
         data = product(self.coatings.items(), READINGS[self.reading].items())
         return np.stack(
             [
-                (over_crossing[:, i, ORDERS.index(k)] - CRITICAL[part][k] / at)
+                (over_crossing[:, i, ORDERS.index(k)] - CRITICAL[part][k] / crossing)
                 / (HALF_DIGIT / CONSISTENT[k])
-                for (part, i), (k, at) in data
+                for (part, i), (k, crossing) in data
             ],
             axis=1,
         )

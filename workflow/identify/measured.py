@@ -6,7 +6,7 @@ from itertools import product
 import numpy as np
 
 from simulate.scene import LEADING, Scene
-from workflow.experiment.plan import Case
+from workflow.experiment.plan import PlannedRow
 from workflow.identify.steps import with_steps
 from workflow.paper.printed import E, K
 
@@ -35,10 +35,10 @@ def at_point(scene: Scene, point: Scene) -> Scene:
     )
 
 
-def at(scenes: Scenes, point: Scene, span: float) -> dict[str, Scene]:
+def scenes_at(scenes: Scenes, point: Scene, span: float) -> dict[str, Scene]:
     """All scenes at a point. That of two and five diameters keeps its shape of the casing."""
-    here = {part: at_point(scene, point) for part, scene in scenes.items()}
-    return here | {"two_five": with_own_shape(scenes["two_five"], point, span)}
+    by_part = {part: at_point(scene, point) for part, scene in scenes.items()}
+    return by_part | {"two_five": with_own_shape(scenes["two_five"], point, span)}
 
 
 def with_own_shape(scene: Scene, point: Scene, span: float) -> Scene:
@@ -53,20 +53,23 @@ def _largest_inward(scene: Scene, span: float) -> float:
     return float(scene.casing.inward(np.linspace(0, 2 * np.pi, 3601), gap).max()) / gap
 
 
-def cases(name: str, here: Scenes, of_E1: Iterable[float]) -> list[Case]:
+def cases(name: str, scenes: Scenes, K_of_E1: Iterable[float]) -> list[PlannedRow]:
     """Rows of a point, as those of an edition of the paper called ``name``.
 
     Those of the coating with E = 1 are labelled with its K, as `e1 0.45`. All have the steps that
     their liner asks for.
     """
-    rows = [(f"e1 {k:g}", "", here["e10"].but(liner__law__E=1.0, liner__law__K=k)) for k in of_E1]
-    rows += [(part, "", here[part]) for part in ("e10", "two_five", "rigid")]
-    rows += [
-        ("grid", f"E = {e:g}, K = {k:g}", here["grid"].but(liner__law__E=e, liner__law__K=k))
-        for e, k in product(E, K)
+    soft, grid = scenes["e10"].but(liner__law__E=1.0), scenes["grid"]
+    rows = [
+        *((f"e1 {k:g}", "", soft.but(liner__law__K=k)) for k in K_of_E1),
+        *((part, "", scenes[part]) for part in ("e10", "two_five", "rigid")),
+        *(
+            ("grid", f"E = {e:g}, K = {k:g}", grid.but(liner__law__E=e, liner__law__K=k))
+            for e, k in product(E, K)
+        ),
     ]
     return [
-        Case(
+        PlannedRow(
             group="",
             label=label,
             names=(name, row),

@@ -18,12 +18,12 @@ from workflow.identify.fits import (
     PRIOR,
     drawn,
     fit,
-    of_prior,
     off_medoid,
     posterior_of,
+    prior_numbers,
 )
 from workflow.identify.likelihood import FITS, K_OF_E1, SHIFTS, WITH_ORDER, Fit
-from workflow.identify.measured import at, cases
+from workflow.identify.measured import cases, scenes_at
 from workflow.identify.points import Points, marched
 from workflow.identify.priors import Priors
 from workflow.identify.proposal import served
@@ -37,10 +37,10 @@ def fits(points: list[Points], rows: list[Rows], priors: Priors) -> dict[str, An
     every = drawn(tables)
     values = priors.values(every["points"].values)
     return {
-        "values": {name: of.tolist() for name, of in values.items()},
+        "values": {name: samples.tolist() for name, samples in values.items()},
         "served": served(tables[0]),
-        "prior": of_prior(priors),
-        "fits": {of.name: fit(of, every, values) for of in FITS},
+        "prior": prior_numbers(priors),
+        "fits": {each_fit.name: fit(each_fit, every, values) for each_fit in FITS},
     }
 
 
@@ -54,20 +54,23 @@ def of_scene(
 
 def blades(fits: list[dict[str, Any]], names: Sequence[str]) -> dict[str, dict[str, Any]]:
     """Fits of the reading that the draws served, by blade and by K of the coating with E = 1."""
-    return {name: _of_served(found) for name, found in zip(names, fits, strict=True)}
+    return {name: _served_fits(numbers) for name, numbers in zip(names, fits, strict=True)}
 
 
-def _of_served(found: Mapping[str, Any]) -> dict[str, Any]:
-    fits = {f"{K:g}": found["fits"][Fit(K, found["served"]).name] for K in K_OF_E1}
+def _served_fits(numbers: Mapping[str, Any]) -> dict[str, Any]:
+    fits = {f"{K:g}": numbers["fits"][Fit(K, numbers["served"]).name] for K in K_OF_E1}
     return {
-        "served": found["served"],
+        "served": numbers["served"],
         "fits": {
             K: {
-                "chi_squared": of["chi_squared"],
-                **{key: of[SHIFTS][key] for key in ("met", "effective", "evidence", "ranges")},
-                "evidence_with_order": of[WITH_ORDER]["evidence"],
+                "chi_squared": fit_numbers["chi_squared"],
+                **{
+                    key: fit_numbers[SHIFTS][key]
+                    for key in ("met", "effective", "evidence", "ranges")
+                },
+                "evidence_with_order": fit_numbers[WITH_ORDER]["evidence"],
             }
-            for K, of in fits.items()
+            for K, fit_numbers in fits.items()
         },
     }
 
@@ -89,19 +92,19 @@ def at_draws(
     ``fits``: those of the posterior, if it is one; ``scene``: of the ``tables``; ``parts``: of the
     claims, by part; ``folder``: of the rows that are done.
     """
-    of_points = _scenes(tables, scene)
+    point_scenes = _scenes(tables, scene)
     scenes = {part: Scene.model_validate(given) for part, given in parts.items()}
-    of_E1 = K_OF_E1 if draws == PRIOR else [POSTERIORS[draws][0]]
-    of = posterior_of(*fits, draws)["draws"] if fits else range(DRAWS)
-    own = of[block::blocks]
+    K_of_E1 = K_OF_E1 if draws == PRIOR else [POSTERIORS[draws][0]]
+    drawn_points = posterior_of(*fits, draws)["draws"] if fits else range(DRAWS)
+    block_points = drawn_points[block::blocks]
     rows = [
         row
-        for i in dict.fromkeys(own)  # a point may be drawn twice
-        for row in cases(str(i), at(scenes, of_points[i], rom.span), of_E1)
+        for i in dict.fromkeys(block_points)  # a point may be drawn twice
+        for row in cases(str(i), scenes_at(scenes, point_scenes[i], rom.span), K_of_E1)
     ]
     done = march_block(rows, folder, tell=tell)
-    found = numbers_of(done, growth_of(done))
-    return [{"point": i} | found[str(i)] for i in own]
+    by_point = numbers_of(done, growth_of(done))
+    return [{"point": i} | by_point[str(i)] for i in block_points]
 
 
 def _scenes(tables: list[str], scene: Scene) -> list[Scene]:

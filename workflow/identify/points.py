@@ -46,8 +46,9 @@ def marched(points: list[Points], rows: list[Rows]) -> list[xr.Dataset]:
 
     Attribute `data`: that its points were drawn by, of ``likelihood.DATA``; None: by none.
     """
-    tables = []
-    for one, of in zip(points, rows, strict=True):
-        at = {"points": (("point", "parameter"), one["points"])}
-        tables.append(observed(of).assign(at).assign_attrs(data=one["data"]))
-    return tables
+    return [
+        observed(table_rows)
+        .assign(points=(("point", "parameter"), one["points"]))
+        .assign_attrs(data=one["data"])
+        for one, table_rows in zip(points, rows, strict=True)
+    ]

@@ -21,8 +21,8 @@ def systematic(weights: ArrayLike, number: int, rng: np.random.Generator) -> NDA
     [0, 0, 2, 3]
     """
     upto = np.cumsum(weights)
-    at = (rng.random() + np.arange(number)) / number * upto[-1]
-    return np.minimum(np.searchsorted(upto, at, side="right"), len(upto) - 1)
+    heights = (rng.random() + np.arange(number)) / number * upto[-1]
+    return np.minimum(np.searchsorted(upto, heights, side="right"), len(upto) - 1)
 
 
 class Weighted(NamedTuple):
@@ -67,12 +67,14 @@ def medoid(points: Points, weights: NDArray[np.float64], among: NDArray[np.bool_
     return int(inside[mean_distance(points, weights, points[inside]).argmin()])
 
 
-def mean_distance(points: Points, weights: NDArray[np.float64], of: Points) -> NDArray[np.float64]:
-    """Weighted mean distance from all ``points`` of each point of ``of``.
+def mean_distance(
+    points: Points, weights: NDArray[np.float64], others: Points
+) -> NDArray[np.float64]:
+    """Weighted mean distance from all ``points`` of each point of ``others``.
 
     >>> mean_distance(np.array([[0.0], [1.0]]), np.array([0.75, 0.25]), np.array([[0.0], [1.0]]))
     array([0.25, 0.75])
     """
     support = np.flatnonzero(weights)
-    apart = np.linalg.norm(of[:, None] - points[None, support], axis=2)
-    return apart @ weights[support]
+    distances = np.linalg.norm(others[:, None] - points[None, support], axis=2)
+    return distances @ weights[support]

@@ -37,9 +37,9 @@ def served(prior: xr.Dataset) -> str:
     points, among = prior["points"].values, candidates([prior])
     least = {
         reading: min(
-            least_chi_squared(points, of.deviations(prior["over_crossing"].values), among)
-            for of in FITS
-            if of.reading == reading
+            least_chi_squared(points, each_fit.deviations(prior["over_crossing"].values), among)
+            for each_fit in FITS
+            if each_fit.reading == reading
         )
         for reading in FOUR_SHIFTS
     }
@@ -48,7 +48,7 @@ def served(prior: xr.Dataset) -> str:
 
 
 def candidates(tables: Sequence[xr.Dataset]) -> Points:
-    """Points of the prior from which those of the table after ``tables`` are drawn, its own."""
+    """Points of the prior from which those of the table after ``tables`` are drawn."""
     return sobol(CANDIDATES, SEED + len(tables))
 
 
@@ -59,24 +59,24 @@ def drawn(tables: Sequence[xr.Dataset], number: int, data: str) -> Points:
     return among[systematic(proposal(tables, among, data), number, rng)]
 
 
-def proposal(tables: Sequence[xr.Dataset], at: Points, data: str) -> NDArray[np.float64]:
-    """Density (at,), relative to the prior, from which points are drawn after ``tables``.
+def proposal(tables: Sequence[xr.Dataset], places: Points, data: str) -> NDArray[np.float64]:
+    """Density (places,), relative to the prior, from which points are drawn after ``tables``.
 
     Equal parts of the emulated posteriors with either K of E = 1, without a K whose evidence is
     less than ``UNSUPPORTED`` of the other's. ``data``: one of ``DATA``.
     """
-    known, reading = joined(tables), served(tables[0])
-    points, everywhere = known["points"].values, np.vstack([candidates(tables), at])
+    every, reading = joined(tables), served(tables[0])
+    points, everywhere = every["points"].values, np.vstack([candidates(tables), places])
     likelihoods = np.array(
         [
             emulated(
                 points,
-                of.deviations(known["over_crossing"].values),
+                each_fit.deviations(every["over_crossing"].values),
                 everywhere,
-                of.stiffer_is_more(known) if data == WITH_ORDER else None,
+                each_fit.stiffer_is_more(every) if data == WITH_ORDER else None,
             )
-            for of in FITS
-            if of.reading == reading
+            for each_fit in FITS
+            if each_fit.reading == reading
         ]
     )
     evidences = likelihoods[:, :CANDIDATES].mean(axis=1)
@@ -84,27 +84,27 @@ def proposal(tables: Sequence[xr.Dataset], at: Points, data: str) -> NDArray[np.
     return parts[evidences >= UNSUPPORTED * evidences.max()].mean(axis=0)
 
 
-def _spline(points: Points, values: NDArray[np.float64], at: Points) -> NDArray[np.float64]:
+def _spline(points: Points, values: NDArray[np.float64], places: Points) -> NDArray[np.float64]:
     """Thin-plate splines through ``values`` (points, ...), evaluated at other points."""
-    return RBFInterpolator(points, values, smoothing=SMOOTHING)(at)
+    return RBFInterpolator(points, values, smoothing=SMOOTHING)(places)
 
 
 def error(points: Points, deviations: NDArray[np.float64]) -> NDArray[np.float64]:
     """Root mean square (data,) of the splines' error, by cross-validation."""
     fold, miss = np.arange(len(points)) % FOLDS, np.empty_like(deviations)
     for number in range(FOLDS):
-        here = fold == number
-        miss[here] = _spline(points[~here], deviations[~here], points[here]) - deviations[here]
+        out = fold == number
+        miss[out] = _spline(points[~out], deviations[~out], points[out]) - deviations[out]
     return np.sqrt((miss**2).mean(axis=0))
 
 
 def emulated(
     points: Points,
     deviations: NDArray[np.float64],
-    at: Points,
+    places: Points,
     held: NDArray[np.bool_] | None = None,
 ) -> NDArray[np.float64]:
-    """Emulated likelihood (at,) of a fit.
+    """Emulated likelihood (places,) of a fit.
 
     Parameters
     ----------
@@ -113,17 +113,17 @@ def emulated(
     held : (points,), whether a statement that is a datum as well holds; it needs the peaks
     """
     there = np.isfinite(deviations).all(axis=1)
-    known = points[there], deviations[there]
-    variance = 1 + error(*known) ** 2  # of the paper and of the emulator
-    chi_squared = (_spline(*known, at) ** 2 / variance).sum(axis=1)
+    samples = points[there], deviations[there]
+    variance = 1 + error(*samples) ** 2  # of the paper and of the emulator
+    chi_squared = (_spline(*samples, places) ** 2 / variance).sum(axis=1)
     statement = (there if held is None else held).astype(float)[:, None]
-    probability = np.clip(_spline(points, statement, at)[:, 0], LEAST, 1)  # that it holds
+    probability = np.clip(_spline(points, statement, places)[:, 0], LEAST, 1)  # that it holds
     return probability * np.exp(-chi_squared / 2)
 
 
-def least_chi_squared(points: Points, deviations: NDArray[np.float64], at: Points) -> float:
+def least_chi_squared(points: Points, deviations: NDArray[np.float64], places: Points) -> float:
     """Least emulated chi squared of a fit at other points; inf where too few points have peaks."""
     there = np.isfinite(deviations).all(axis=1)
     if there.sum() <= points.shape[1]:
         return inf
-    return float((_spline(points[there], deviations[there], at) ** 2).sum(axis=1).min())
+    return float((_spline(points[there], deviations[there], places) ** 2).sum(axis=1).min())

@@ -17,7 +17,7 @@ BOTH = "C12 and C16 hold in"
 FEW = "too few"  # effective points for a range
 
 
-def fits(found: Mapping[str, Any]) -> str:
+def fits(numbers: Mapping[str, Any]) -> str:
     """One row for each fit: its best point, and how much the data support it."""
     head = [
         "K of E = 1, reading of k = 6",
@@ -29,18 +29,18 @@ def fits(found: Mapping[str, Any]) -> str:
         BOTH,
         "effective size with these",
     ]
-    listed = table(head, [_fit(of, found["fits"][of.name]) for of in FITS])
-    return f"{listed}\n\nThe points were drawn for the reading `{found['served']}`."
+    listed = table(head, [_fit(each_fit, numbers["fits"][each_fit.name]) for each_fit in FITS])
+    return f"{listed}\n\nThe points were drawn for the reading `{numbers['served']}`."
 
 
-def _fit(of: Fit, found: Mapping[str, Any]) -> list[str]:
-    shifts, with_order = found[SHIFTS], found[WITH_ORDER]
+def _fit(data_fit: Fit, numbers: Mapping[str, Any]) -> list[str]:
+    shifts, with_order = numbers[SHIFTS], numbers[WITH_ORDER]
     if not shifts["evidence"]:
-        return [of.name, "no point has all peaks", *[""] * 6]
+        return [data_fit.name, "no point has all peaks", *[""] * 6]
     return [
-        of.name,
-        f"{found['chi_squared']:.2g}",
-        ", ".join(f"{value:+.1f}" for value in found["best"]["deviations"]),
+        data_fit.name,
+        f"{numbers['chi_squared']:.2g}",
+        ", ".join(f"{value:+.1f}" for value in numbers["best"]["deviations"]),
         f"{shifts['met']}, {with_order['met']}",
         f"{shifts['evidence']:.2g}",
         f"{shifts['effective']:.0f}",
@@ -62,52 +62,61 @@ factor of {casing[0]:.2g} (assumed: {casing[1]:.2g}), the unit of E by {unit[0]:
 WIDTH = 124  # of the lines of a page
 
 
-def answer(found: Mapping[str, Any]) -> str:
+def answer(numbers: Mapping[str, Any]) -> str:
     """Three sentences: how near the paper's shifts come, the K they prefer, the conclusion."""
-    loose, taken = (found["fits"][Fit(K, "printed").name] for K in K_OF_E1)
-    consistent = [found["fits"][Fit(K, "consistent").name] for K in K_OF_E1]
-    text = ANSWER.format(
-        points=len(taken[SHIFTS]["weights"]),
-        K_loose=K_OF_E1[0],
-        K=K_OF_E1[1],
-        met=taken[SHIFTS]["met"],
-        met_loose=loose[SHIFTS]["met"],
-        met_other=max(of[SHIFTS]["met"] for of in consistent),
-        order=loose[WITH_ORDER]["met"],
-        nearest=max(map(abs, taken["best"]["deviations"])),
-        shifts=loose[SHIFTS]["evidence"] / taken[SHIFTS]["evidence"],
-        all_data=taken[WITH_ORDER]["evidence"] / loose[WITH_ORDER]["evidence"],
-        few=loose[WITH_ORDER]["effective"],
-        many=taken[WITH_ORDER]["effective"],
-        casing=factors(found, taken[WITH_ORDER], "casing_gaps"),
-        unit=factors(found, taken[WITH_ORDER], "unit_Pa"),
+    loose, taken = (numbers["fits"][Fit(K, "printed").name] for K in K_OF_E1)
+    consistent = [numbers["fits"][Fit(K, "consistent").name] for K in K_OF_E1]
+    return fill(
+        ANSWER.format(
+            points=len(taken[SHIFTS]["weights"]),
+            K_loose=K_OF_E1[0],
+            K=K_OF_E1[1],
+            met=taken[SHIFTS]["met"],
+            met_loose=loose[SHIFTS]["met"],
+            met_other=max(fit_numbers[SHIFTS]["met"] for fit_numbers in consistent),
+            order=loose[WITH_ORDER]["met"],
+            nearest=max(map(abs, taken["best"]["deviations"])),
+            shifts=loose[SHIFTS]["evidence"] / taken[SHIFTS]["evidence"],
+            all_data=taken[WITH_ORDER]["evidence"] / loose[WITH_ORDER]["evidence"],
+            few=loose[WITH_ORDER]["effective"],
+            many=taken[WITH_ORDER]["effective"],
+            casing=factors(numbers, taken[WITH_ORDER], "casing_gaps"),
+            unit=factors(numbers, taken[WITH_ORDER], "unit_Pa"),
+        ),
+        WIDTH,
     )
-    return fill(text, WIDTH)
 
 
-def factors(found: Mapping[str, Any], posterior: Mapping[str, Any], name: str) -> list[float]:
+def factors(numbers: Mapping[str, Any], posterior: Mapping[str, Any], name: str) -> list[float]:
     """Range of a positive parameter as a ratio, in a posterior and in the prior."""
-    return [of["ranges"][name][2] / of["ranges"][name][0] for of in (posterior, found["prior"])]
+    return [
+        distribution["ranges"][name][2] / distribution["ranges"][name][0]
+        for distribution in (posterior, numbers["prior"])
+    ]
 
 
-def ranges(found: Mapping[str, Any]) -> str:
+def ranges(numbers: Mapping[str, Any]) -> str:
     """Median of each parameter, with 5 and 95 %, in the fits to the reading that was served.
 
     And the share of casings that are nearest at four places: the posterior has two modes.
     """
-    columns = {"prior": found["prior"]}
+    columns = {"prior": numbers["prior"]}
     for data, K in product((SHIFTS, WITH_ORDER), K_OF_E1):
-        columns[f"K = {K:g}, {data}"] = found["fits"][Fit(K, found["served"]).name][data]
-    rows = [[f"`{name}`", *(_range(of, name) for of in columns.values())] for name in NAMES]
+        columns[f"K = {K:g}, {data}"] = numbers["fits"][Fit(K, numbers["served"]).name][data]
+    rows = [
+        [f"`{name}`", *(_range(distribution, name) for distribution in columns.values())]
+        for name in NAMES
+    ]
     shares = [
-        f"{100 * of['four_places']:.0f} %" if of["ranges"] else FEW for of in columns.values()
+        f"{100 * distribution['four_places']:.0f} %" if distribution["ranges"] else FEW
+        for distribution in columns.values()
     ]
     return table(["", *columns], [*rows, [f"`fourth_over_second` below {TWO_NEAREST}", *shares]])
 
 
-def of_scene(found: Mapping[str, float | None]) -> str:
+def of_scene(distance: Mapping[str, float | None]) -> str:
     """How near the scenes' values are to the medoid."""
-    off = found["off_medoid"]
+    off = distance["off_medoid"]
     if off is None:
         return "No point of the posterior has the paper's speeds of EO 4: there is no medoid."
     return fill(
@@ -117,42 +126,42 @@ def of_scene(found: Mapping[str, float | None]) -> str:
     )
 
 
-def _range(of: Mapping[str, Any], name: str) -> str:
+def _range(distribution: Mapping[str, Any], name: str) -> str:
     """Median of a parameter, with 5 and 95 %, in a posterior or in the prior."""
-    if of["ranges"] is None:
+    if distribution["ranges"] is None:
         return FEW
-    low, median, high = (f"{value:.2g}" for value in of["ranges"][name])
+    low, median, high = (f"{value:.2g}" for value in distribution["ranges"][name])
     return f"{median} ({low} to {high})"
 
 
-def blades(of: Mapping[str, Any]) -> str:
+def blades(by_blade: Mapping[str, Any]) -> str:
     """One row for each blade and K: how near the fit comes, and its parameters."""
     rows = [
-        {"blade, K of E = 1, reading": f"{blade}, {K}, {found['served']}"} | _of_blade(fit)
-        for blade, found in of.items()
-        for K, fit in found["fits"].items()
+        {"blade, K of E = 1, reading": f"{blade}, {K}, {numbers['served']}"} | _blade_cells(fit)
+        for blade, numbers in by_blade.items()
+        for K, fit in numbers["fits"].items()
     ]
     return records(rows)
 
 
-def _of_blade(fit: Mapping[str, Any]) -> dict[str, object]:
-    known = fit["evidence"] > 0
+def _blade_cells(fit: Mapping[str, Any]) -> dict[str, object]:
+    possible = fit["evidence"] > 0
     return {
         "least χ²": f"{fit['chi_squared']:.2g}",
         MET: fit["met"],
         "effective size": f"{fit['effective']:.0f}",
-        BOTH: percent(fit["evidence_with_order"] / fit["evidence"], LEAST) if known else "",
+        BOTH: percent(fit["evidence_with_order"] / fit["evidence"], LEAST) if possible else "",
         **{f"`{name}`": _range(fit, name) for name in NAMES},
     }
 
 
-def shares(of: Mapping[str, Any]) -> str:
+def shares(numbers: Mapping[str, Any]) -> str:
     """Share of the draws of the prior and of the posterior at which each claim holds."""
     says = {claim.id: claim.says for claim in CLAIMS}
     columns = {
         f"{name}, K = {K:g} ({drawn['draws']} draws)": drawn
         for K in K_OF_E1
-        for name, drawn in distributions(of, f"{K:g}").items()
+        for name, drawn in distributions(numbers, f"{K:g}").items()
     }
     rows = [
         [claim, says[claim], *(_share(drawn, claim) for drawn in columns.values())]
@@ -163,7 +172,7 @@ def shares(of: Mapping[str, Any]) -> str:
     return table(["", "the paper says", *columns], rows)
 
 
-def _share(of: Mapping[str, Any], claim: str) -> str:
-    unknown = of["not judged"][claim]
-    held = f"{100 * of['holds'][claim]:.0f} %"
+def _share(shares: Mapping[str, Any], claim: str) -> str:
+    unknown = shares["not judged"][claim]
+    held = f"{100 * shares['holds'][claim]:.0f} %"
     return held + f" ({100 * unknown:.0f} % not judged)" * (unknown > 0)

@@ -25,16 +25,17 @@ def numbers(
 
     ``measured``: numbers at draws, of a job each; ``draws``: which.
     """
-    of_draws: dict[str, list[dict[str, Any]]] = {name: [] for name in draws}
-    for name, found in zip(draws, measured, strict=True):
-        of_draws[name] += found
+    jobs = [*zip(draws, measured, strict=True)]
+    by_draws = {
+        name: [row for drawn, rows in jobs if drawn == name for row in rows] for name in draws
+    }
     return {
         name: {
             f"{K:g}": shares([verdicts(draw, f"{K:g}") for draw in each])
             for K in K_OF_E1
             if f"e1 {K:g}" in each[0]
         }
-        for name, each in of_draws.items()
+        for name, each in by_draws.items()
         if each  # a posterior of too few effective points has no draws
     }
 
@@ -47,7 +48,7 @@ def verdicts(draw: Mapping[str, Any], K: str) -> Verdicts:
     }
 
 
-def shares(of_draws: Sequence[Verdicts]) -> dict[str, Any]:
+def shares(verdicts: Sequence[Verdicts]) -> dict[str, Any]:
     """Shares of the draws at which claims hold, whether their numbers agree or not.
 
     Returns
@@ -58,12 +59,12 @@ def shares(of_draws: Sequence[Verdicts]) -> dict[str, Any]:
         the first one at which the second one holds as well; nan where the first one never holds;
         "most at once": of claims that hold at one draw.
     """
-    held = np.array([[draw[c] in HOLDS for c in JUDGED] for draw in of_draws], float)
-    unknown = np.array([[draw[c] == "not judged" for c in JUDGED] for draw in of_draws])
+    held = np.array([[draw[c] in HOLDS for c in JUDGED] for draw in verdicts], float)
+    unknown = np.array([[draw[c] == "not judged" for c in JUDGED] for draw in verdicts])
     with np.errstate(invalid="ignore"):
         together = held.T @ held / held.sum(axis=0)[:, None]
     return {
-        "draws": len(of_draws),
+        "draws": len(verdicts),
         "holds": _by_claim(held.mean(axis=0)),
         "most at once": int(held.sum(axis=1).max()),
         "not judged": _by_claim(unknown.mean(axis=0)),
@@ -75,10 +76,10 @@ def _by_claim(values: NDArray[np.float64]) -> dict[str, float]:
     return dict(zip(JUDGED, values.tolist(), strict=True))
 
 
-def distributions(of: Mapping[str, Any], K: str) -> dict[str, Mapping[str, Any]]:
+def distributions(shares: Mapping[str, Any], K: str) -> dict[str, Mapping[str, Any]]:
     """Shares of all draws with K of the coating with E = 1, by name, as far as there are any."""
     names = {
         PRIOR: "prior",
         **{name: f"posterior, {data}" for name, (_, data) in POSTERIORS.items()},
     }
-    return {names[draws]: found[K] for draws, found in of.items() if K in found}
+    return {names[draws]: by_K[K] for draws, by_K in shares.items() if K in by_K}

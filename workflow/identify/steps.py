@@ -22,7 +22,7 @@ def steps_per_round(E: float) -> int:
 
 def with_steps(scene: Scene) -> Scene:
     """The scene with the steps that its liner asks for, if it has fewer."""
-    law, own = scene.liner.law, scene.integrator.steps_per_round
+    law, given = scene.liner.law, scene.integrator.steps_per_round
     if law.kind == "rigid":
         return scene
-    return scene.but(integrator__steps_per_round=max(own, steps_per_round(law.E * law.unit_Pa)))
+    return scene.but(integrator__steps_per_round=max(given, steps_per_round(law.E * law.unit_Pa)))

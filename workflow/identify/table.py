@@ -30,15 +30,15 @@ def settings(priors: Priors, points: Points, stiffness: float) -> dict[str, NDAr
 
     ``stiffness``: of the blade's mode 1 over that of the reference blade, a factor on the unit.
     """
-    of = priors.values(points)
-    fourth, constant = of["fourth_over_second"], of["constant_over_second"]
+    values = priors.values(points)
+    fourth, constant = values["fourth_over_second"], values["constant_over_second"]
     return {
-        "liner.law.unit_Pa": stiffness * of["unit_Pa"],
-        "casing.scale": of["casing_gaps"] / largest_inward(fourth, constant),
+        "liner.law.unit_Pa": stiffness * values["unit_Pa"],
+        "casing.scale": values["casing_gaps"] / largest_inward(fourth, constant),
         f"{CONSTANT}.amplitude_gaps": constant,
         f"{FOURTH}.amplitude_gaps": abs(fourth),
         f"{FOURTH}.phase_deg": np.where(fourth < 0, 180.0, 0.0),
-        "damping_ratio": of["damping_ratio"],
+        "damping_ratio": values["damping_ratio"],
     }
 
 
@@ -50,14 +50,14 @@ def parameters(scene: Scene) -> dict[str, float]:
     geometry.project.errors.SettingsError
         When its casing is none that the parameters give.
     """
-    harmonics = {of.order: of for of in scene.casing.harmonics}
-    if [*harmonics] != [0, 2, 4] or not {of.phase_deg for of in harmonics.values()} <= {0.0, 180.0}:
+    harmonics = {h.order: h for h in scene.casing.harmonics}
+    if [*harmonics] != [0, 2, 4] or not {h.phase_deg for h in harmonics.values()} <= {0.0, 180.0}:
         raise SettingsError(
             f"orders {[*harmonics]}: the parameters of the identification give 0, 2 and 4, of "
             "phase 0 or 180",
             key="casing.harmonics",
         )
-    signed = {k: (1 - of.phase_deg / 90) * of.amplitude_gaps for k, of in harmonics.items()}
+    signed = {k: (1 - h.phase_deg / 90) * h.amplitude_gaps for k, h in harmonics.items()}
     fourth, constant = (signed[k] / signed[2] for k in (4, 0))
     inward = float(largest_inward(np.array(fourth), np.array(constant)))
     return {
@@ -85,11 +85,11 @@ def observed(rows: xr.Dataset) -> xr.Dataset:
 
     `over_crossing`, `amplitude` and `wear`, both gaps, (point, coating, order); nan without a peak.
     """
-    of = rows.drop_vars("row").sel(order=list(ORDERS)).rename(peak="amplitude")
-    peaks = of.assign(wear=of["wear"] / of["gap"])[["over_crossing", "amplitude", "wear"]]
-    named = peaks.where(of["reported"] == 1)
-    of_points = named.coarsen(row=len(COATINGS)).construct(row=("point", "coating"))
-    return of_points.transpose("point", "coating", "order")
+    table = rows.drop_vars("row").sel(order=list(ORDERS)).rename(peak="amplitude")
+    peaks = table.assign(wear=table["wear"] / table["gap"])[["over_crossing", "amplitude", "wear"]]
+    named = peaks.where(table["reported"] == 1)
+    by_point = named.coarsen(row=len(COATINGS)).construct(row=("point", "coating"))
+    return by_point.transpose("point", "coating", "order")
 
 
 def stiffness(rom: Rom) -> float:

@@ -1,4 +1,4 @@
-"""Answers at the peaks of a sweep, with their uncertainty."""
+"""Results at the peaks of a sweep, with their uncertainty."""
 
 from typing import Any
 
@@ -12,7 +12,7 @@ from simulate.sweeps.peak_results import of_sweep, results
 def find(
     sweep: Sweep, rom: Rom, check: str, mesh_error: str, start: Sweep | None, tell: Say
 ) -> dict[str, Any]:
-    """Answers of a sweep; ``check`` and ``mesh_error`` are empty where the scene has none."""
+    """Peak results of a sweep; ``check`` and ``mesh_error`` are empty where the scene has none."""
     require_rom(sweep, rom)
-    doubt = ModelErrors.of(check, mesh_error, rom).frequencies
-    return of_sweep(sweep, rom, doubt, results(sweep, rom, doubt, start, tell))
+    model_errors = ModelErrors.of(check, mesh_error, rom).frequencies
+    return of_sweep(sweep, rom, model_errors, results(sweep, rom, model_errors, start, tell))

@@ -15,7 +15,7 @@ def compare(
     tolerance: float,
     speeds: list[float] | None,
     checked: str,
-    now: Say,
+    report: Say,
     mesh: str | None = None,
 ) -> None:
     """Compare both models; at further speeds, too, where neighbours among ``speeds`` disagree.
@@ -34,7 +34,7 @@ def compare(
         from workflow.jobs.full_model import solved_at  # FEniCSx is imported for nothing else
 
         shown = ", ".join(f"{speed:.6g}" for speed in more)
-        now(f"errors at neighbouring speeds disagree: full model at {shown} rad/s, too")
+        report(f"errors at neighbouring speeds disagree: full model at {shown} rad/s, too")
         result = check(rom, full.joined(solved_at(more, settings, mesh)))
     print(f"full model solved at {', '.join(f'{speed:.6g}' for speed in result.speeds)} rad/s")
     print(f"largest frequency error of each mode: {abs(result.error).max(axis=0)}")

@@ -31,15 +31,15 @@ def write(
     ``operating``: as of ``simulate.sweeps.peak.critical``.
     """
     response = Response.read(sweep, rom)
-    of_basis = Basis.load(basis, origin(response.sweep))
-    motion, of_blade = None, {}
+    full_basis = Basis.load(basis, origin(response.sweep))
+    motion, blade_arrays = None, {}
     if "motion" in response.sweep:
-        motion, of_blade = moving(blade, mesh, of_basis, response.sweep, response.rom)
-    found = operating and critical(response.rom, operating)
-    told = panel(read_json(answers), found, stress)
+        motion, blade_arrays = moving(blade, mesh, full_basis, response.sweep, response.rom)
+    campbell = operating and critical(response.rom, operating)
+    summary_panel = panel(read_json(answers), campbell, stress)
     shown = facts(response, names["blade"], names["scene"]) | {
         "motion": motion,
-        "answers": told,
+        "answers": summary_panel,
         "operating": operating.get("lines", {}),
     }
-    write_whole(page.html(shown, arrays(response) | of_blade), html)
+    write_whole(page.html(shown, arrays(response) | blade_arrays), html)

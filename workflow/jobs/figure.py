@@ -45,8 +45,8 @@ def origins(paths: Iterable[str | Path]) -> str:
     geometry.project.provenance.ProvenanceError
         When a file holds no provenance.
     """
-    found = (_origin(path) for path in paths if Path(path).suffix == ".nc")
-    return "; ".join(dict.fromkeys(found))
+    texts = (_origin(path) for path in paths if Path(path).suffix == ".nc")
+    return "; ".join(dict.fromkeys(texts))
 
 
 def _origin(path: str | Path) -> str:

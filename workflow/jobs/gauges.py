@@ -15,8 +15,10 @@ def place(settings: Blade, mesh: str, basis: str, rom: Rom, record: Record, mode
 
     ``settings``: of its blade.
     """
-    of = Basis.load(basis, rom.provenance)
-    statics, grids = (of.static(Omega) for Omega in rom.speeds), record.grids
-    at_speeds = gauge_rows(settings, mesh, of.coordinates, grids.values(), statics, of.T)
-    rows = interpolate(at_speeds, rom.speeds)
+    full_basis = Basis.load(basis, rom.provenance)
+    statics, grids = (full_basis.static(Omega) for Omega in rom.speeds), record.grids
+    by_speed = gauge_rows(
+        settings, mesh, full_basis.coordinates, grids.values(), statics, full_basis.T
+    )
+    rows = interpolate(by_speed, rom.speeds)
     replace(rom, gauges=tuple(grids), gauge_rows=rows).save(model)

@@ -13,15 +13,15 @@ from simulate.sweeps.over_speeds import as_sweep, at_speeds, check_sweep, tell_b
 GROUPS = 4  # of speeds, each with its own checks: the same ones in 1, 2 or 4 blocks
 
 
-def check(scene: Scene, rom: Rom, now: Say) -> None:
+def check(scene: Scene, rom: Rom, report: Say) -> None:
     """Check a scene against its reduced model: refuse one that no block of its sweep could run."""
-    check_sweep(scene, rom, now)
+    check_sweep(scene, rom, report)
 
 
-def pilot(scene: Scene, rom: Rom, check: str, mesh_error: str, now: Say) -> dict[str, Any]:
+def pilot(scene: Scene, rom: Rom, check: str, mesh_error: str, report: Say) -> dict[str, Any]:
     """Step, density and strips for a scene with an accuracy."""
     choice = accuracy.pilot(scene, rom, check, mesh_error)
-    tell_before(choice.scene(scene), rom, now)
+    tell_before(choice.scene(scene), rom, report)
     return choice.plain()
 
 
@@ -37,12 +37,12 @@ def block(
 ) -> None:
     """Run one of the ``blocks`` of the speeds of a scene."""
     speeds = scene.speeds.omega(rom.f1)[int(names["block"]) :: blocks]  # all blocks cost the same
-    marched, apart = at_speeds(scene, rom, speeds, tell, settings, start), max(GROUPS // blocks, 1)
+    marched, step = at_speeds(scene, rom, speeds, tell, settings, start), max(GROUPS // blocks, 1)
     save(
         merge(
             [
-                as_sweep(marched[first::apart], tell, settings)
-                for first in range(min(apart, len(marched)))
+                as_sweep(marched[first::step], tell, settings)
+                for first in range(min(step, len(marched)))
             ]
         ),
         runs,

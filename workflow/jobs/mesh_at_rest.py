@@ -3,9 +3,9 @@
 from fem.at_rest import build_mesh_at_rest
 from geometry.blade import Blade
 from geometry.project import Say
-from workflow.jobs.mesh import tell_of
+from workflow.jobs.mesh import report_mesh
 
 
-def build(blade: Blade, mesh: str, now: Say, source: str | None = None) -> None:
+def build(blade: Blade, mesh: str, report: Say, source: str | None = None) -> None:
     """Mesh a blade at rest, with the geometry in the file ``source`` where its own names one."""
-    tell_of(build_mesh_at_rest(blade, mesh, source), now)
+    report_mesh(build_mesh_at_rest(blade, mesh, source), report)

@@ -78,10 +78,10 @@ def laws(numbers: Numbers) -> Finding:
 
 def wear_by_density(numbers: Numbers) -> Finding:
     """C05."""
-    at_peak, off = numbers["densities"]["wear"]
+    on_peak, off = numbers["densities"]["wear"]
     return Finding(
         (
-            Value("change of profile on the peak", at_peak, 0, INSIGNIFICANT),
+            Value("change of profile on the peak", on_peak, 0, INSIGNIFICANT),
             Value("off it", off, 0, INSIGNIFICANT),
         )
     )
@@ -122,8 +122,8 @@ def modes(numbers: Numbers) -> Finding:
 
 def crossings(numbers: Numbers) -> Finding:
     """C10: the paper's 0.17 and 0.31 contradict each other under f1^2 = 1 + B Omega^2."""
-    at = numbers["model"]["crossings"]
-    k4, k6 = at["4"], at["6"]
+    speeds = numbers["model"]["crossings"]
+    k4, k6 = speeds["4"], speeds["6"]
     return Finding(
         (
             _rounded("crossing of k = 4", k4, CROSSING[4], calibrated=True),
@@ -142,7 +142,7 @@ def crossings(numbers: Numbers) -> Finding:
 def shifts(numbers: Numbers) -> Finding:
     """C11: the data of the identification (``workflow.identify``)."""
     ours = {(part, k): _peak(numbers, part, int(k))["over_crossing"] for part, k in SHIFTS}
-    known = {str(k): SPACING / crossing for k, crossing in CONSISTENT.items()}
+    resolution = {str(k): SPACING / crossing for k, crossing in CONSISTENT.items()}
     values = [
         Value(
             f"{COATING[part]}, k = {k}",
@@ -150,16 +150,16 @@ def shifts(numbers: Numbers) -> Finding:
             paper - digit,
             paper + digit,
             calibrated=True,
-            resolution=known[k],
+            resolution=resolution[k],
         )
         for (part, k), (paper, digit) in SHIFTS.items()
     ]
     least = min(ours.values())
-    statements = [more("least shift", least, 1, max(known.values()), calibrated=True)]
+    statements = [more("least shift", least, 1, max(resolution.values()), calibrated=True)]
     for k in ("4", "6"):
         stiff, soft = ours["e10", k], ours["e1", k]
         name = f"E = 10 over E = 1, k = {k}"
-        statements.append(more(name, stiff / soft, 1, 2 * known[k], calibrated=True))
+        statements.append(more(name, stiff / soft, 1, 2 * resolution[k], calibrated=True))
     over_consistent = {
         f"the paper's, {name}, k = 6, over {CONSISTENT[6]}": CRITICAL[part][6] / CONSISTENT[6]
         for part, name in COATING.items()
@@ -239,16 +239,20 @@ def deeper_wear(numbers: Numbers) -> Finding:
 def worst_case(numbers: Numbers) -> Finding:
     """C17: a maximum inside the table along both moduli, through the paper's worst case."""
     grid = numbers["grid"]
-    at, over = grid["worst"], grid["interior_over_ends"]
+    worst, over = grid["worst"], grid["interior_over_ends"]
     return Finding(
-        (Value("‖Y‖ at (10, 4.55) over the worst", grid["paper_worst"] / at["amplitude"], 1, 1),),
+        (
+            Value(
+                "‖Y‖ at (10, 4.55) over the worst", grid["paper_worst"] / worst["amplitude"], 1, 1
+            ),
+        ),
         (
             more("K = 4.55: highest between the ends of E over the higher end", over["E"], 1),
             more("E = 10: highest between the ends of K over the higher end", over["K"], 1),
         ),
         {
-            "E of the worst": at["E"],
-            "K of the worst": at["K"],
+            "E of the worst": worst["E"],
+            "K of the worst": worst["K"],
             "peaks that can be predicted, of 45": grid["predictable"],
         },
         "The maximum lies at another coating.",
@@ -332,9 +336,9 @@ def tangential_lowers(numbers: Numbers) -> Finding:
     for k in (4, 6):
         without, with_it = (_peak(numbers, part, k) for part in ("tilted", "tangential"))
         for name, key in (("‖Y‖", "amplitude"), ("Omega_c", "Omega_c")):
-            ratio, known = with_it[key] / without[key], 2 * SPACING / without["Omega_c"]
-            known = known if key == "Omega_c" else 0.0
-            statements.append(less(f"{name} at k = {k}, with over without", ratio, 1, known))
+            ratio, resolution = with_it[key] / without[key], 2 * SPACING / without["Omega_c"]
+            resolution = resolution if key == "Omega_c" else 0.0
+            statements.append(less(f"{name} at k = {k}, with over without", ratio, 1, resolution))
             if "e10" in numbers:  # not with a choice changed
                 ratio = with_it[key] / _peak(numbers, "e10", k)[key]
                 shown[f"{name} at k = {k}, with over the flat tip's"] = ratio
@@ -377,14 +381,14 @@ def growth(numbers: Numbers) -> Finding:
     """C26: growth at the critical speed found after twenty revolutions."""
     ratios = numbers["long"]["growth"]
     fallen = [name for name, ratio in ratios.items() if ratio < FALLEN]
-    left = f"Wear has detuned {' and '.join(fallen)}: the response has left the peak by then."
+    detuned = f"Wear has detuned {' and '.join(fallen)}: the response has left the peak by then."
     steady = "The amplitudes grow no further: the liner does not wear any more."
     return Finding(
         statements=tuple(
             more(f"‖Y‖ after 200 revolutions over 20, {name}", ratio, 1 + INSIGNIFICANT)
             for name, ratio in ratios.items()
         ),
-        because=left if fallen else steady,
+        because=detuned if fallen else steady,
     )
 
 

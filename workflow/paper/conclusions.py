@@ -72,7 +72,11 @@ def text(claims: Sequence[Row], fits: Mapping[str, Any], long: Mapping[str, Any]
     return "\n\n".join(
         [
             fill(INTRODUCTION.format(other=" and ".join(others) or "no other", **DRAWN), WIDTH),
-            *("\n".join([fill(GROUPS[name], WIDTH), "", *of]) for name, of in groups.items() if of),
+            *(
+                "\n".join([fill(GROUPS[name], WIDTH), "", *lines])
+                for name, lines in groups.items()
+                if lines
+            ),
             fill(_long(long), WIDTH),
             fill(_experiment(fits), WIDTH),
         ]
@@ -101,18 +105,21 @@ def _share(row: Row) -> float | None:
 def _line(row: Row) -> str:
     """A claim with its verdict here, its share and its verdicts on other blades."""
     share = _share(row)
-    told = [row["verdict"], *([f"{100 * share:.0f} % of the draws"] if share is not None else [])]
-    told += [f"{name}: {there['verdict']}" for name, there in row["other"].items()]
-    return f"- {row['id']}: {row['says']} ({'; '.join(told)})"
+    parts = [
+        row["verdict"],
+        *([f"{100 * share:.0f} % of the draws"] if share is not None else []),
+        *(f"{name}: {there['verdict']}" for name, there in row["other"].items()),
+    ]
+    return f"- {row['id']}: {row['says']} ({'; '.join(parts)})"
 
 
-def _long(found: Mapping[str, Any]) -> str:
-    first, last = found["amplitude"][0], found["amplitude"][-1]
-    best, through = first.index(max(first)), found["through"]
+def _long(numbers: Mapping[str, Any]) -> str:
+    first, last = numbers["amplitude"][0], numbers["amplitude"][-1]
+    best, through = first.index(max(first)), numbers["through"]
     return LONG.format(
-        rounds=found["rounds"][0],
-        last=found["rounds"][-1],
-        peak=found["speeds"][best],
+        rounds=numbers["rounds"][0],
+        last=numbers["rounds"][-1],
+        peak=numbers["speeds"][best],
         begin=first[best],
         end=last[best],
         up=through["run_up"]["largest"],
@@ -124,12 +131,12 @@ def _long(found: Mapping[str, Any]) -> str:
     )
 
 
-def _experiment(found: Mapping[str, Any]) -> str:
-    taken, prior = posterior_of(found, TAKEN), found["prior"]
+def _experiment(fits: Mapping[str, Any]) -> str:
+    taken, prior = posterior_of(fits, TAKEN), fits["prior"]
     return EXPERIMENT.format(
-        unit=factors(found, taken, "unit_Pa"),
-        casing=factors(found, taken, "casing_gaps"),
-        damping=factors(found, taken, "damping_ratio"),
+        unit=factors(fits, taken, "unit_Pa"),
+        casing=factors(fits, taken, "casing_gaps"),
+        damping=factors(fits, taken, "damping_ratio"),
         mean=taken["ranges"]["constant_over_second"],
         assumed=prior["ranges"]["constant_over_second"],
         four=100 * taken["four_places"],

@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from workflow.markdown import table
-from workflow.usage import UsageError, read_usage
+from workflow.usage import cpu_seconds
 
 HEAD = ["target", "jobs measured", "from first start to last end (s)", "CPU (s)", "longest job (s)"]
 
@@ -21,7 +21,7 @@ def cost(targets: Mapping[str, Iterable[str | Path]]) -> str:
 
 def _sums(folders: Iterable[str | Path]) -> list[str]:
     """Number of the jobs of these folders, their wall and CPU time, and that of the longest."""
-    jobs = [_job(file) for of in folders for file in Path(of).glob("benchmarks/*.tsv")]
+    jobs = [_job(file) for folder in folders for file in Path(folder).glob("benchmarks/*.tsv")]
     if not jobs:
         return ["not run", "", "", ""]
     starts, ends, cpu = zip(*jobs, strict=True)
@@ -36,8 +36,5 @@ def _job(file: Path) -> tuple[float, float, float]:
         row = next(csv.DictReader(text, delimiter="\t"))
     end = file.stat().st_mtime  # written when the job has ended
     log = file.parents[1] / "logs" / f"{file.stem}.log"
-    try:
-        cpu = read_usage(log)["seconds"]
-    except (OSError, UsageError):  # of an older version, or of a job that has failed since
-        cpu = float(row["cpu_time"].replace("-", "") or 0)
-    return end - float(row["s"]), end, cpu
+    sampled = float(row["cpu_time"].replace("-", "") or 0)
+    return end - float(row["s"]), end, cpu_seconds(log, sampled)

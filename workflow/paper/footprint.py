@@ -124,7 +124,7 @@ def footprint(
     s = np.array([pitch * offset(strips, i, passed) for i in k])
     part = np.array([covered_part(strips, i, passed) for i in k])
     middle = [pitch * covered_middle(strips, i, passed) for i in k]
-    p, slope = np.array([profile_at(strips.tip, at) for at in middle]).T
+    p, slope = np.array([profile_at(strips.tip, arc) for arc in middle]).T
     delta = np.where(part > 0, u_r - p + a * strips.d[rods] - g0, 0.0)
     sigma = [
         law.stress(law.parameters, deep / l, before)[0] if deep > 0 else 0.0
@@ -133,8 +133,8 @@ def footprint(
     unworn = -a * strips.d[rods] / gap
     worn = unworn + l * eps_p[rods] / gap
     along = np.linspace(-0.5, 0.5, OUTLINE) * strips.length * pitch
-    surface = [(u_r - g0 - profile_at(strips.tip, at)[0]) / gap for at in along]
-    of_rods = {
+    surface = [(u_r - g0 - profile_at(strips.tip, arc)[0]) / gap for arc in along]
+    columns = {
         "s": s,
         "begin": np.clip(s - pitch / 2, along[0], along[-1]),
         "finish": np.clip(s + pitch / 2, along[0], along[-1]),
@@ -146,4 +146,4 @@ def footprint(
         "slope": slope,
     }
     tip = np.array([along, surface])
-    return Footprint(pd.DataFrame(of_rods), tip, float(pitch), gap, float(-g0 / gap), l)
+    return Footprint(pd.DataFrame(columns), tip, float(pitch), gap, float(-g0 / gap), l)

@@ -27,9 +27,9 @@ type Case = dict[str, Any]
 
 def of_coating(runs: xr.Dataset, rom: Rom, scene: Scene) -> Case:
     """One coating of the grid, as ``without_twins``; at each peak the twin is run as well."""
-    found = without_twins(runs, rom, scene)
-    peaks = {k: p and p | _predictable(rom, scene, p) for k, p in found["peaks"].items()}
-    return found | {"peaks": peaks}
+    numbers = without_twins(runs, rom, scene)
+    peaks = {k: p and p | _predictable(rom, scene, p) for k, p in numbers["peaks"].items()}
+    return numbers | {"peaks": peaks}
 
 
 def without_twins(runs: xr.Dataset, rom: Rom, scene: Scene) -> Case:
@@ -43,9 +43,9 @@ def without_twins(runs: xr.Dataset, rom: Rom, scene: Scene) -> Case:
     }
 
 
-def _predictable(rom: Rom, scene: Scene, at: Case) -> dict[str, Any]:
+def _predictable(rom: Rom, scene: Scene, numbers: Case) -> dict[str, Any]:
     """Status of the run at a peak, and its difference from its twin."""
-    with_twin = at_speeds(scene.but(twin=True), rom, [at["Omega_c"] * rom.omega1])
+    with_twin = at_speeds(scene.but(twin=True), rom, [numbers["Omega_c"] * rom.omega1])
     run = as_sweep(with_twin, check=False).isel(speed_over_f1=0)
     return {"status": str(run["status"].item()), "departure": departure(run)}
 
@@ -63,16 +63,16 @@ def worst(table: Mapping[str, Any]) -> Case | None:
     return max(with_peak, key=lambda case: case["peaks"][ORDER]["amplitude"], default=None)
 
 
-def at(table: Mapping[str, Any], young: float, plastic: float) -> Case:
+def coating_of(table: Mapping[str, Any], young: float, plastic: float) -> Case:
     """The case of one coating."""
     return next(c for c in table["cases"] if (c["E"], c["K"]) == (young, plastic))
 
 
 def long_cases(table: Mapping[str, Any]) -> dict[str, Case]:
     """The cases whose growth is followed, by name; none where the paper's has no peak."""
-    paper = at(table, *WORST)
-    found = {"worst found": worst(table), "the paper's worst": paper}
-    return found if paper["peaks"][ORDER] else {}
+    paper = coating_of(table, *WORST)
+    cases = {"worst found": worst(table), "the paper's worst": paper}
+    return cases if paper["peaks"][ORDER] else {}
 
 
 def growth(scene: Scene, rom: Rom, name: str, case: Mapping[str, Any]) -> dict[str, Any]:

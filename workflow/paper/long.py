@@ -49,12 +49,12 @@ def _way(runs: xr.Dataset) -> dict[str, float]:
     }
 
 
-def table(found: Mapping[str, Any]) -> str:
+def table(numbers: Mapping[str, Any]) -> str:
     """Two tables: over the revolutions, and through the peak."""
-    head = ["‖Y‖ / gap at Ω / f₁(0) =", *(f"{speed:.3f}" for speed in found["speeds"])]
+    head = ["‖Y‖ / gap at Ω / f₁(0) =", *(f"{speed:.3f}" for speed in numbers["speeds"])]
     lines = [
         [f"after {rounds} revolutions", *(f"{value:.2f}" for value in along)]
-        for rounds, along in zip(found["rounds"], found["amplitude"], strict=True)
+        for rounds, along in zip(numbers["rounds"], numbers["amplitude"], strict=True)
     ]
     by_way = [
         {
@@ -64,6 +64,6 @@ def table(found: Mapping[str, Any]) -> str:
             "at the highest speed": f"{way['at_highest']:.2f}",
             "worn depth / gap": f"{way['deepest_wear']:.2f}",
         }
-        for name, way in found["through"].items()
+        for name, way in numbers["through"].items()
     ]
     return f"{rows_of(head, lines)}\n\n{records(by_way)}"

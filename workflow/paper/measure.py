@@ -31,7 +31,7 @@ from simulate.marching import WITH_RESULT, march, prepare
 from simulate.scene import LEADING, Scene
 from simulate.sweeps.dataset import over_f1, scene_of, statuses
 from simulate.sweeps.peak import ORDERS, crossing, peak_of
-from workflow.paper.grid import at, worst
+from workflow.paper.grid import coating_of, worst
 from workflow.paper.peaks import lobes_over_speed, peak
 from workflow.paper.printed import WORST
 
@@ -44,7 +44,7 @@ type Numbers = dict[str, Any]
 
 def model(rom: Rom, check: RomCheck, paper: Rom, paper_check: RomCheck) -> Numbers:
     """Reduced models: size and error of the paper's, error of ours, K2, frequencies, crossings."""
-    of = {
+    numbers = {
         "n": paper.n,
         "error": float(abs(paper_check.error[:, :7]).max()),
         "error_default": float(abs(check.error[:, :7]).max()),
@@ -54,7 +54,7 @@ def model(rom: Rom, check: RomCheck, paper: Rom, paper_check: RomCheck) -> Numbe
         "crossings": {str(k): crossing(rom, k) for k in (4, 5, 6)},
         "tangential_over_radial": direction(paper),
     }
-    return {"model": of}
+    return {"model": numbers}
 
 
 K2_FACTORS = {"printed": 3 / 4, "4/3": 4 / 3}  # before K2 in Eq. (3), over Omega_m^4
@@ -96,13 +96,14 @@ def coating(runs: xr.Dataset, rom: Rom) -> Numbers:
 
 
 def _orders_seen(
-    rom: Rom, speeds: NDArray[np.float64], at: Callable[[int], NDArray[np.bool_]]
+    rom: Rom, speeds: NDArray[np.float64], is_seen: Callable[[int], NDArray[np.bool_]]
 ) -> list[int]:
-    """Even engine orders k that are seen (``at``, by speed) at a speed near their crossing."""
+    """Even engine orders k that are seen (``is_seen``, by speed) at a speed near their crossing."""
 
     def seen(k: int) -> bool:
+        """Whether the order is seen near its crossing."""
         low, high = (share * crossing(rom, k) for share in NEAR)
-        return bool(at(k)[(speeds >= low) & (speeds <= high)].any())
+        return bool(is_seen(k)[(speeds >= low) & (speeds <= high)].any())
 
     return [k for k in ORDERS if k % 2 == 0 and seen(k)]
 
@@ -115,8 +116,12 @@ def _orders_in_harmonics(
     Where marks of successive revolutions overlap, and lobes cannot be counted, a pattern of k still
     has that harmonic.
     """
-    of = np.abs(np.fft.rfft(wear, axis=1))
-    return _orders_seen(rom, speeds, lambda k: of[:, k] > np.maximum(of[:, k - 2], of[:, k + 2]))
+    harmonics = np.abs(np.fft.rfft(wear, axis=1))
+    return _orders_seen(
+        rom,
+        speeds,
+        lambda k: harmonics[:, k] > np.maximum(harmonics[:, k - 2], harmonics[:, k + 2]),
+    )
 
 
 def two_five(runs: xr.Dataset, rom: Rom) -> Numbers:
@@ -150,9 +155,9 @@ def tip_force(runs: xr.Dataset, rom: Rom) -> Numbers | None:
 
     None if no run near that peak has a result.
     """
-    if (at := peak_of(runs, rom, 4)) is None:
+    if (main := peak_of(runs, rom, 4)) is None:
         return None
-    run = runs.isel(speed_over_f1=at.index)
+    run = runs.isel(speed_over_f1=main.index)
     u_r = run["history"].values[0] / leading_gap(runs)
     samples = scene_of(runs).record.samples_per_round
     last = u_r[len(u_r) // 2 :]
@@ -160,8 +165,8 @@ def tip_force(runs: xr.Dataset, rom: Rom) -> Numbers | None:
         "peaks": {str(k): peak(runs, rom, k) for k in (4, 6)},
         "statuses": statuses(runs),
         "ratio": _ratio(runs),
-        "mode_share": mode_share(last, samples, at.Omega_c, float(run["f1"])),
-        "disorder": disorder(last, at.Omega_c),
+        "mode_share": mode_share(last, samples, main.Omega_c, float(run["f1"])),
+        "disorder": disorder(last, main.Omega_c),
     }
 
 
@@ -187,7 +192,7 @@ def table(grid: Mapping[str, Any]) -> Numbers:
     """The grid of E and K: worst case, corners, and rank correlations of Omega_c with E and K."""
     most, young, plastic = worst(grid), grid["E"], grid["K"]
     amplitude, speed = (
-        np.array([[_of_peak(at(grid, e, k), name) for k in plastic] for e in young])
+        np.array([[_peak_number(coating_of(grid, e, k), name) for k in plastic] for e in young])
         for name in ("amplitude", "Omega_c")
     )
     i, j = young.index(WORST[0]), plastic.index(WORST[1])
@@ -198,11 +203,11 @@ def table(grid: Mapping[str, Any]) -> Numbers:
         "softest": amplitude[0, 0],
         "stiffest": amplitude[-1, -1],
         "rank": {"E": _ranks(young, speed.T), "K": _ranks(plastic, speed)},
-        "predictable": sum(_of_peak(case, "status") == "ok" for case in grid["cases"]),
+        "predictable": sum(_peak_number(case, "status") == "ok" for case in grid["cases"]),
     }
 
 
-def _of_peak(case: Mapping[str, Any], name: str) -> Any:
+def _peak_number(case: Mapping[str, Any], name: str) -> Any:
     """The value ``name`` of the EO 4 peak; nan without a peak."""
     peak = case["peaks"]["4"]
     return peak[name] if peak else np.nan
@@ -277,6 +282,8 @@ def _cpu_time(scene: Scene, rom: Rom) -> float:
     return min(repeat(partial(march, scene, setup), timer=process_time, number=1, repeat=3))
 
 
-def stress(told: Mapping[str, Any]) -> Numbers:
+def stress(stresses: Mapping[str, Any]) -> Numbers:
     """Largest alternating stress of all speeds of ``stress.json``, MPa."""
-    return {"alternating_MPa": 1e-6 * max(of.get("alternating", 0.0) for of in told["speeds"])}
+    return {
+        "alternating_MPa": 1e-6 * max(row.get("alternating", 0.0) for row in stresses["speeds"])
+    }

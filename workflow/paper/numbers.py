@@ -6,8 +6,9 @@ from typing import Any
 from rom.model import Rom
 from simulate.scene import Scene
 from simulate.sweeps.dataset import Sweep
+from workflow.experiment.row import ExperimentRow
 from workflow.paper import measure
-from workflow.paper.editions import Rows, numbers_of
+from workflow.paper.editions import numbers_of
 from workflow.paper.laws import slopes_over_closed_form
 from workflow.paper.measure import Numbers
 
@@ -32,7 +33,7 @@ def of_scenes(
     two_five: Sweep,
     tilted: Sweep,
     tangential: Sweep,
-    grid: Rows,
+    grid: Sequence[ExperimentRow],
     growth: Mapping[str, Any],
     more: list[Numbers],
 ) -> Numbers:
@@ -44,12 +45,12 @@ def of_scenes(
         "tilted": measure.tip_force(tilted, rom),
         "tangential": measure.tip_force(tangential, rom),
     }
-    for of in [*numbers_of(grid, growth).values(), *more]:
-        numbers |= of
+    for part in [*numbers_of(grid, growth).values(), *more]:
+        numbers |= part
     return numbers
 
 
-def worst(table: Rows, growth: Mapping[str, Sequence[Any]]) -> dict[str, Any]:
+def worst(table: Sequence[ExperimentRow], growth: Mapping[str, Sequence[Any]]) -> dict[str, Any]:
     """Long runs of the worst coatings, and the peak of the bare casing."""
     (cases,) = growth.values()
     (rigid,) = [row["numbers"] for row in table if row["scene"] == "rigid"]

@@ -97,7 +97,7 @@ def claims(numbers: Numbers, further: Mapping[str, Mapping[str, str]]) -> list[R
         for group in ("repeats", "other", "causes")
     }
     shares = distributions(read_json(**further["shares"]), K_OF_E1) if "shares" in further else {}
-    holds = {name: found["holds"] for name, found in shares.items()}
+    holds = {name: draws["holds"] for name, draws in shares.items()}
     return verdicts(CLAIMS, numbers, **groups, shares=holds)
 
 

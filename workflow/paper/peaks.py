@@ -20,15 +20,17 @@ OF_PEAK = ("Omega_c", "over_crossing", "amplitude", "at_end", "clear")  # of ``P
 
 def peak(runs: xr.Dataset, rom: Rom, k: int) -> dict[str, Any] | None:
     """The peak along engine order ``k``; None if no run near it has a result."""
-    at = peak_of(runs, rom, k)
-    if at is None:
+    main = peak_of(runs, rom, k)
+    if main is None:
         return None
-    run, values = runs.isel(speed_over_f1=at.index), at.plain()
-    values = {name: values[name] for name in OF_PEAK}
-    values |= {"status": str(run["status"].item()), "departure": departure(run)}
+    run, values = runs.isel(speed_over_f1=main.index), main.plain()
+    values = {name: values[name] for name in OF_PEAK} | {
+        "status": str(run["status"].item()),
+        "departure": departure(run),
+    }
     if "largest" in runs:
         values["largest"] = float(run["largest"]) / leading_gap(runs)
-    return values | (worn_at(runs, at.index) if "wear" in runs else {})
+    return values | (worn_at(runs, main.index) if "wear" in runs else {})
 
 
 def departure(run: xr.Dataset) -> float | None:

@@ -13,9 +13,9 @@ CRITICAL = {
 }
 # Omega_c over the linear crossing: (paper, half a digit of Omega_c over the crossing)
 SHIFTS = {
-    (part, str(k)): (CRITICAL[part][k] / at, HALF_DIGIT / at)
+    (part, str(k)): (CRITICAL[part][k] / crossing, HALF_DIGIT / crossing)
     for part in ("e1", "e10")
-    for k, at in CROSSING.items()
+    for k, crossing in CROSSING.items()
 }
 # Table 1, of ``workflow/experiments/grid.yaml``
 E = (1.0, 1.82, 4.55, 10.0, 13.64, 18.18, 45.45, 100.0, 181.82)

@@ -35,7 +35,7 @@ def verdicts(
     """
     return [
         _with_others(claim, judge(claim, numbers, repeats), {"other": other, "causes": causes})
-        | {"shares": {name: of[claim.id] for name, of in shares.items() if claim.id in of}}
+        | {"shares": {name: held[claim.id] for name, held in shares.items() if claim.id in held}}
         for claim in claims
     ]
 

@@ -100,11 +100,15 @@ class Claim:
 
 def uncertainties(finding: Finding, repeats: Iterable[Finding]) -> dict[str, float]:
     """Largest change of each quantity in the repeats, or its resolution where that is more."""
-    others, here = [repeat.quantities for repeat in repeats], finding.quantities
+    others, quantities = [repeat.quantities for repeat in repeats], finding.quantities
     return {
         part.name: max(
             part.resolution,
-            *(abs(other[part.name] - here[part.name]) for other in others if part.name in other),
+            *(
+                abs(other[part.name] - quantities[part.name])
+                for other in others
+                if part.name in other
+            ),
             0.0,
         )
         for part in finding.judged
@@ -148,9 +152,9 @@ def judge(
     ``like``: uncertainties by quantity, for numbers without repeats of their own. ``fitted``: as of
     ``verdict``.
     """
-    finding, missing = _found(claim, numbers)
-    again = {name: _found(claim, n) for name, n in repeats.items()} if not missing else {}
-    repeated = {name: of for name, (of, lacking) in again.items() if not lacking}
+    finding, missing = _finding(claim, numbers)
+    again = {name: _finding(claim, n) for name, n in repeats.items()} if not missing else {}
+    repeated = {name: repeat for name, (repeat, lacking) in again.items() if not lacking}
     uncertainty = uncertainties(finding, repeated.values()) | (like or {})
     return {
         **{key: getattr(claim, key) for key in ("id", "where", "says", "paper", "figure")},
@@ -170,7 +174,7 @@ def _label(judged: Value | Statement) -> str:
     return judged.name + " (calibrated)" * judged.calibrated
 
 
-def _found(claim: Claim, numbers: Numbers) -> tuple[Finding, str]:
+def _finding(claim: Claim, numbers: Numbers) -> tuple[Finding, str]:
     """Our results for a claim, and the missing part, if any: one that was not run, or a peak."""
     try:
         return claim.find(numbers), ""

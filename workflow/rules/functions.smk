@@ -319,10 +319,10 @@ def tables_of_draws(wildcards):
 
 def claim_scenes():
     """Scenes of the claims, without the parameters that every draw sets: these rerun nothing."""
-    from workflow.identify.measured import at
+    from workflow.identify.measured import scenes_at
 
     scenes = {part: SCENES[name] for part, name in CLAIM_SCENES.items()}
-    return at(scenes, SCENES["identify"], span=1.0)
+    return scenes_at(scenes, SCENES["identify"], span=1.0)
 
 
 def given_draws(wildcards):

@@ -47,7 +47,7 @@ def run(snakemake: Any) -> None:
 
     It gets those of its arguments that the rule holds, by name and as their types ask for
     (``argument``): input files, output files, parameters, and those in ``params.given``;
-    ``files``, all inputs; ``names``, the wildcards; ``tell`` and ``now``, which report progress.
+    ``files``, all inputs; ``names``, the wildcards; ``tell`` and ``report``, which report progress.
     Its result is written.
     """
     name, _, function = snakemake.params.run.partition(":")
@@ -57,7 +57,7 @@ def run(snakemake: Any) -> None:
         held = {"files": snakemake.input, "names": dict(snakemake.wildcards.items()), "tell": tell}
         for part in (snakemake.input, snakemake.output, snakemake.params):
             held |= part.items()
-        held |= {"now": tell.now, **snakemake.params.get("given", {})}
+        held |= {"report": tell.report, **snakemake.params.get("given", {})}
         kinds = get_type_hints(call, include_extras=True)
         asked = {name: argument(kind, held[name]) for name, kind in kinds.items() if name in held}
         result = call(**asked)
@@ -95,7 +95,7 @@ class Teller:
             self._write(line)
             self.last = monotonic()
 
-    def now(self, line: str) -> None:
+    def report(self, line: str) -> None:
         """Report a line once: on a terminal always."""
         print(line, flush=True)
         if self.shows or line.startswith(WARNING):
@@ -182,6 +182,7 @@ def _repeat_warnings(outside: int, snakemake: Any) -> None:
     log = warnings.showwarning
 
     def show(message: Warning | str, category: type[Warning], *where: Any) -> None:
+        """Log a warning; write a ``Caution`` to the terminal, too."""
         log(message, category, *where)
         if issubclass(category, Caution):
             os.write(outside, f"{_line(snakemake, message)}\n".encode())

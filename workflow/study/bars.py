@@ -35,8 +35,8 @@ def held(runs: xr.Dataset, rom: Rom, reference: Marched | None) -> dict[str, flo
     return {
         "peaks": len(peaks),
         "numbers": len(off),
-        "within": sum(of <= 1 for of in off),
-        "beyond twice": sum(of > 2 for of in off),
+        "within": sum(ratio <= 1 for ratio in off),
+        "beyond twice": sum(ratio > 2 for ratio in off),
         "median ±": median(said),
         "CPU s of ±": sum(peak.seconds for peak in peaks),
     }
@@ -45,7 +45,7 @@ def held(runs: xr.Dataset, rom: Rom, reference: Marched | None) -> dict[str, flo
 def _true(peak: Peak, reference: Marched) -> dict[str, float]:
     """Numbers of the reference at a peak, and half the spacing of the sweep beside it."""
     scene, rom = to_march(reference.runs), reference.rom
-    speeds = [peak.Omega_c + beside * peak.spacing for beside in (-0.5, 0.0, 0.5)]
+    speeds = [peak.Omega_c + side * peak.spacing for side in (-0.5, 0.0, 0.5)]
     setups = [prepare(scene, rom, min(over_f1 * rom.omega1, rom.Omega_m)) for over_f1 in speeds]
-    found = [at_peak(Case(scene, rom, setup), peak.k) for setup in setups]
-    return found[1] | {"amplitude": max(of["amplitude"] for of in found)}
+    results = [at_peak(Case(scene, rom, setup), peak.k) for setup in setups]
+    return results[1] | {"amplitude": max(result["amplitude"] for result in results)}

@@ -9,6 +9,7 @@ from geometry.blade import Blade
 from rom.check import RomCheck
 from rom.model import Rom
 from workflow import markdown
+from workflow.experiment.row import ExperimentRow
 from workflow.markdown import rounded
 
 HEAD = (
@@ -37,14 +38,14 @@ def numbers(blade: Blade, rom: Rom, check: str) -> dict[str, Any]:
         "frequency_error_percent": rounded(100 * error.max(), 2),
         "frequency_error_7_percent": rounded(100 * error[:, :7].max(), 2),
         "compliance_error_percent": {
-            direction: rounded(100 * of, 2)
-            for direction, of in zip(rom.directions, compliance, strict=True)
+            direction: rounded(100 * value, 2)
+            for direction, value in zip(rom.directions, compliance, strict=True)
         },
         "highest_MHz": rounded(checked.highest / (2e6 * np.pi), 3),
     }
 
 
-def table(rows: Sequence[Mapping[str, Any]]) -> str:
+def table(rows: Sequence[ExperimentRow]) -> str:
     """Markdown table of the bases."""
     return markdown.table(HEAD, [_cells(**row["numbers"]) for row in rows])
 

@@ -35,11 +35,11 @@ FREQUENCY_BAR, STRESS_BAR = 1e-4, 0.03
 
 def changes(single: Run, reference: Marched | None) -> Row:
     """Errors against the ``reference``; without one the largest difference from the twin."""
-    found = errors(single, reference)
+    numbers = errors(single, reference)
     if reference is not None:
-        return found
+        return numbers
     twin = single.beside(TWIN).march()
-    return found | {"largest": max(differences(single, twin).values())}
+    return numbers | {"largest": max(differences(single, twin).values())}
 
 
 def numbers(files: Any) -> Row:
@@ -58,13 +58,17 @@ def numbers(files: Any) -> Row:
 
 def between_meshes(rows: list[Row]) -> list[Row]:
     """Largest change of the compliance of strips from one mesh to the next."""
-    of = {(row["blade"], row["patches"]): np.array(row["compliance_m_per_N"]) for row in rows}
+    compliances = {
+        (row["blade"], row["patches"]): np.array(row["compliance_m_per_N"]) for row in rows
+    }
     return [
         {
             "from": one,
             "to": other,
             "patches": patches,
-            "compliance": float(np.abs(of[one, patches] / of[other, patches] - 1).max()),
+            "compliance": float(
+                np.abs(compliances[one, patches] / compliances[other, patches] - 1).max()
+            ),
             "bar": bar if judged else None,
         }
         for one, other, judged in MESHES
@@ -74,8 +78,8 @@ def between_meshes(rows: list[Row]) -> list[Row]:
 
 def stresses(rows: list[Row]) -> list[Row]:
     """Change with mesh and patches of the largest stress: away from clamp and tip, and anywhere."""
-    of = {(r["blade"], r["patches"]): r["stress"] for r in rows if "stress" in r}
-    default, fine, twice = (of[model] for model in STRESSED)
+    by_model = {(r["blade"], r["patches"]): r["stress"] for r in rows if "stress" in r}
+    default, fine, twice = (by_model[model] for model in STRESSED)
     others = {"2.48 to 1.75 mm": fine, "16 to 32 patches": twice}
     return [
         {
@@ -134,22 +138,22 @@ def compliances(study: Row) -> str:
 def results(study: Row) -> str:
     """Changes of the outputs; for gaps changed by 1e-10, the largest difference of the twin."""
     rows = study["changes"]
-    of = {
+    at_peak = {
         row["row"]: row["numbers"]["errors"]
         for row in rows
         if row["scene"] == "peak" and row["row"] in BARS
     }
     lines = []
     for label in dict.fromkeys(row["scene"] for row in rows if row["scene"] != "peak"):
-        here = {row["row"]: row["numbers"] for row in rows if row["scene"] == label}
+        numbers = {row["row"]: row["numbers"] for row in rows if row["scene"] == label}
         for name, bars in BARS.items():
-            known = (
+            errors = (
                 {"Omega_c": None}
-                | here[name]["errors"]
-                | (of[name] if label == "resonance" else {})
+                | numbers[name]["errors"]
+                | (at_peak[name] if label == "resonance" else {})
             )
-            lines.append([label, name, *(_share(known[key], bars.get(key)) for key in SHOWN)])
-        lines.append([label, "gaps by 1e-10", f"{here[DEFAULT]['largest']:.1e}", *[""] * 4])
+            lines.append([label, name, *(_share(errors[key], bars.get(key)) for key in SHOWN)])
+        lines.append([label, "gaps by 1e-10", f"{numbers[DEFAULT]['largest']:.1e}", *[""] * 4])
     return markdown.table(["scene", "change", *(name.replace("_", " ") for name in SHOWN)], lines)
 
 

@@ -46,11 +46,13 @@ def numbers(files: Any, blade: str, scene: Row) -> list[Row]:
     name, rows = fom.provenance.blade, []
     for patches in PATCHES[name]:
         interface = interface_of(solid, settings.but(interface={"patches": patches}))
-        own = replace(fom, S=interface.S, xi=interface.xi)
-        model = reduce(own, settings.basis, "r")
-        rows.append(_row(own, solid, *model))
+        matrices = replace(fom, S=interface.S, xi=interface.xi)
+        model = reduce(matrices, settings.basis, "r")
+        rows.append(_row(matrices, solid, *model))
         if (name, patches) in STRESSED:
-            rows[-1]["stress"] = at_peak(Scene(**scene), settings.prestress, solid, own, *model)
+            rows[-1]["stress"] = at_peak(
+                Scene(**scene), settings.prestress, solid, matrices, *model
+            )
     return rows
 
 
@@ -95,10 +97,10 @@ def at_peak(scene: Scene, prestress: str, solid: Solid, fom: Matrices, rom: Rom,
     Omega, u_r, u = largest_state(sweep(case, rom))
     basis = Basis.of(fom, T, rom.provenance)
     shown = on_solid(solid, basis.static(Omega), basis.reconstruct(u), prestress)
-    of, inside = shown.total.von_mises, away(solid, *WIDTHS)
+    von_mises, inside = shown.total.von_mises, away(solid, *WIDTHS)
     return {
-        "away_Pa": float(of[inside].max()),
-        "away_at_m": shown.points[inside][of[inside].argmax()].tolist(),
-        "largest_Pa": float(of.max()),
+        "away_Pa": float(von_mises[inside].max()),
+        "away_at_m": shown.points[inside][von_mises[inside].argmax()].tolist(),
+        "largest_Pa": float(von_mises.max()),
         "u_r_m": u_r,
     }

@@ -6,7 +6,7 @@ from typing import Any
 
 import pandas as pd
 
-from workflow.study.trade import Row
+from workflow.experiment.row import ExperimentRow
 
 OBSERVABLES = ["amplitude", "Omega_c", "wear", "lobes", "force", "history"]  # of the tables
 JUDGED = ["amplitude", "wear", "force", "history"]  # over which the largest error is taken
@@ -20,48 +20,48 @@ LEVELS = {"draft": 0.1, "standard": 0.03, "reference": 0.01}  # largest error ov
 MARCHES = {"calm": 1700, "stiff": 3400, "tangential": 250}
 
 
-def of_group(rows: Sequence[Row], *groups: str) -> pd.DataFrame:
+def group_rows(rows: Sequence[ExperimentRow], *groups: str) -> pd.DataFrame:
     """Rows of groups on the scenes, with their errors in columns, nan where not known.
 
     That of Omega_c at resonance is from the sweep over the peak. `worst`: largest of those in
     ``JUDGED``; inf if one is not known.
     """
-    found = pd.DataFrame(rows)
-    found = found[found["group"].isin(groups)].reset_index(drop=True)
-    errors = found["numbers"].map(lambda of: of.get("errors"))
-    of = pd.DataFrame([each or {} for each in errors], columns=OBSERVABLES, dtype=float)
-    at_peak = of["Omega_c"].where(found["scene"] == PEAK)
-    at_peak = at_peak.groupby([found["group"], found["row"]]).transform("max")
-    of["Omega_c"] = at_peak.where(found["scene"] == "resonance")
-    of["worst"] = of[JUDGED].max(axis=1, skipna=False).fillna(inf)
-    return found.join(of)[found["scene"].isin(SCENES) & errors.notna()]
+    frame = pd.DataFrame(rows)
+    frame = frame[frame["group"].isin(groups)].reset_index(drop=True)
+    errors = frame["numbers"].map(lambda numbers: numbers.get("errors"))
+    errors_by_name = pd.DataFrame([each or {} for each in errors], columns=OBSERVABLES, dtype=float)
+    peaks = errors_by_name["Omega_c"].where(frame["scene"] == PEAK)
+    largest = peaks.groupby([frame["group"], frame["row"]]).transform("max")
+    errors_by_name["Omega_c"] = largest.where(frame["scene"] == "resonance")
+    errors_by_name["worst"] = errors_by_name[JUDGED].max(axis=1, skipna=False).fillna(inf)
+    return frame.join(errors_by_name)[frame["scene"].isin(SCENES) & errors.notna()]
 
 
-def uncertainty(rows: Sequence[Row]) -> pd.DataFrame:
+def uncertainty(rows: Sequence[ExperimentRow]) -> pd.DataFrame:
     """Uncertainty of the reference by scene: change by one level coarser or another scheme.
 
     `worst` is inf where neither is known.
     """
-    of = of_group(rows, "finest", "scheme")
-    changes = of[of["row"].isin([COARSER, OTHER_SCHEME])].groupby("scene")[OBSERVABLES].max()
+    runs = group_rows(rows, "finest", "scheme")
+    changes = runs[runs["row"].isin([COARSER, OTHER_SCHEME])].groupby("scene")[OBSERVABLES].max()
     worst = changes[JUDGED].max(axis=1, skipna=False)
     return changes.assign(worst=worst).reindex(SCENES).fillna({"worst": inf})
 
 
-def front(rows: Sequence[Row], scene: str) -> pd.DataFrame:
+def front(rows: Sequence[ExperimentRow], scene: str) -> pd.DataFrame:
     """The Pareto-optimal rows of a scene: no other has less cost and less error."""
-    tried = of_group(rows, "front")
-    own = tried[tried["scene"] == scene].sort_values(["cpu_s", "worst"])
-    least = own["worst"].cummin().shift(fill_value=inf)  # of all with less cost
-    return own[own["worst"] < least]
+    tried = group_rows(rows, "front")
+    of_scene = tried[tried["scene"] == scene].sort_values(["cpu_s", "worst"])
+    least = of_scene["worst"].cummin().shift(fill_value=inf)  # of all with less cost
+    return of_scene[of_scene["worst"] < least]
 
 
-def levels(rows: Sequence[Row]) -> Iterator[dict[str, Any]]:
+def levels(rows: Sequence[ExperimentRow]) -> Iterator[dict[str, Any]]:
     """For each level the cheapest setting that meets it on all scenes, or the most accurate.
 
     With its rows (`of`), its largest error, and its time for all of `paper`, CPU min.
     """
-    tried = of_group(rows, "front")
+    tried = group_rows(rows, "front")
     minutes = tried["cpu_s"] * tried["scene"].map(MARCHES) / 60
     by_setting = tried.assign(paper_min=minutes).groupby("row", sort=False)
     settings = by_setting.agg({"worst": "max", "paper_min": "sum"})

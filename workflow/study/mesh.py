@@ -19,6 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import minimize_scalar
 
 from workflow import markdown
+from workflow.experiment.row import ExperimentRow
 from workflow.figures import style
 
 ORDERS = (0.5, 4.0)  # range of the order; at most 4 for frequencies of quadratic elements
@@ -27,7 +28,7 @@ OWN = "own size"  # row of the blade itself
 MARKERS = [*"os^vD<>pPX"]  # one for each mode
 
 
-def numbers(rows: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+def numbers(rows: Sequence[ExperimentRow]) -> dict[str, Any]:
     """Limits, and the errors of every size against them.
 
     ``rows``: of an experiment with ``frequencies.numbers``, from coarse to fine; that of the
@@ -35,19 +36,19 @@ def numbers(rows: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
     """
     levels = [row["numbers"] for row in rows]
     sizes = [level["element_size_mm"] for level in levels]
-    of = {
+    quantities = {
         "at_rest_Hz": np.array([level["frequencies_Hz"][0] for level in levels]),
         "at_Omega_m_Hz": np.array([level["frequencies_Hz"][-1] for level in levels]),
         "tip_deflection_m": np.array([[level["tip_deflection_m"]] for level in levels]),
     }
-    frequencies = np.hstack([of["at_rest_Hz"], of["at_Omega_m_Hz"]])
+    frequencies = np.hstack([quantities["at_rest_Hz"], quantities["at_Omega_m_Hz"]])
     order = common_order(sizes[-3:], frequencies[-3:])
     return {
         "element_size_mm": sizes,
         "own": [row["row"] for row in rows].index(OWN),
         "nodes": [level["nodes"] for level in levels],
         "order": order,
-    } | {key: _against_limit(sizes, values, order) for key, values in of.items()}
+    } | {key: _against_limit(sizes, values, order) for key, values in quantities.items()}
 
 
 def common_order(sizes: ArrayLike, values: ArrayLike) -> float:
@@ -58,9 +59,10 @@ def common_order(sizes: ArrayLike, values: ArrayLike) -> float:
     sizes, values = np.asarray(sizes, dtype=float), np.asarray(values, dtype=float)
 
     def misfit(p: float) -> float:
+        """Sum of squares that the best limit and slope of order ``p`` leave."""
         A = np.column_stack([np.ones_like(sizes), (sizes / sizes[-1]) ** p])
-        left = values / values[-1] - A @ np.linalg.lstsq(A, values / values[-1])[0]
-        return float((left**2).sum())
+        residual = values / values[-1] - A @ np.linalg.lstsq(A, values / values[-1])[0]
+        return float((residual**2).sum())
 
     return float(minimize_scalar(misfit, bounds=ORDERS, method="bounded").x)
 
@@ -82,39 +84,39 @@ def _against_limit(sizes: list[float], values: NDArray[np.float64], order: float
     }
 
 
-def table(rows: Sequence[Mapping[str, Any]]) -> str:
+def table(rows: Sequence[ExperimentRow]) -> str:
     """Markdown: sizes, and a table with the errors of the blade's own size for each mode."""
     study = numbers(rows)
-    sizes, nodes, own = study["element_size_mm"], study["nodes"], study["own"]
+    sizes, nodes, index = study["element_size_mm"], study["nodes"], study["own"]
     pairs = ", ".join(f"{h:.2f} mm ({n:,} nodes)" for h, n in zip(sizes, nodes, strict=True))
     rest, speed, tip = study["at_rest_Hz"], study["at_Omega_m_Hz"], study["tip_deflection_m"]
     head = ["mode", "limit at rest, Hz", "error, %", "limit at Ω_m, Hz", "error, %"]
     modes = range(len(rest["limit"]))
-    errors = [[m + 1, *_cells(rest, m, own), *_cells(speed, m, own)] for m in modes]
+    errors = [[m + 1, *_cells(rest, m, index), *_cells(speed, m, index)] for m in modes]
     return "\n".join(
         [
             f"Sizes {pairs}; observed order {study['order']:.2f}. The blade's own size is "
-            f"{sizes[own]:.2f} mm:",
+            f"{sizes[index]:.2f} mm:",
             "",
             markdown.table(head, errors),
             "",
             "Deflection of the tip at 1/16 of the chord at Ω_m: limit "
-            f"{1e3 * tip['limit'][0]:.4f} mm, error {_error(tip, 0, own)} %.",
+            f"{1e3 * tip['limit'][0]:.4f} mm, error {_error(tip, 0, index)} %.",
         ]
     )
 
 
-def _cells(quantity: Mapping[str, Any], m: int, own: int) -> tuple[str, str]:
-    return f"{quantity['limit'][m]:.2f}", _error(quantity, m, own)
+def _cells(quantity: Mapping[str, Any], m: int, index: int) -> tuple[str, str]:
+    return f"{quantity['limit'][m]:.2f}", _error(quantity, m, index)
 
 
-def _error(quantity: Mapping[str, Any], m: int, own: int) -> str:
+def _error(quantity: Mapping[str, Any], m: int, index: int) -> str:
     """Error of the blade's own size, and the band of the limit, %."""
-    return f"{100 * quantity['error'][own][m]:+.2f} ± {100 * quantity['band'][m]:.2f}"
+    return f"{100 * quantity['error'][index][m]:+.2f} ± {100 * quantity['band'][m]:.2f}"
 
 
 @style.styled
-def draw(study: list[dict[str, Any]]) -> Figure:
+def draw(study: list[ExperimentRow]) -> Figure:
     """Errors against the limit, one line for each mode at rest and one for the tip deflection.
 
     ``study``: rows of the experiment.
@@ -130,8 +132,8 @@ def draw(study: list[dict[str, Any]]) -> Figure:
     axes.plot(sizes, frequencies, lw=0.7, label=modes)
     axes.plot(sizes, tip, "o--", color=style.BLUE, markerfacecolor="white", label="tip deflection")
     _slope(axes, sizes, study["order"], frequencies.max())
-    own = sizes[study["own"]]
-    axes.axvline(own, color=style.GREY, linewidth=0.6, linestyle=":", label="own size")
+    size_of_blade = sizes[study["own"]]
+    axes.axvline(size_of_blade, color=style.GREY, linewidth=0.6, linestyle=":", label="own size")
     axes.set(xscale="log", yscale="log", xlabel="element size, mm", ylabel="error, %")
     axes.set_xticks(sizes, [f"{size:.2f}" for size in sizes])
     axes.xaxis.set_minor_locator(NullLocator())

@@ -25,15 +25,15 @@ def numbers(files: Any, blade: str) -> dict[str, Any]:
     difference from a mesh coarser by ``COARSER`` (Roache 1994). ``blade``: YAML file of the blade;
     ``files.full``: its full model. Without a coarser mesh they are None, and `why` says why.
     """
-    own, full = Blade.load(blade), FullModel.load(files.full)
-    size = COARSER * own.mesh.element_size_mm
+    settings, full = Blade.load(blade), FullModel.load(files.full)
+    size = COARSER * settings.mesh.element_size_mm
     about = {
         "mesh": full.provenance.mesh,
-        "element_size_mm": own.mesh.element_size_mm,
+        "element_size_mm": settings.mesh.element_size_mm,
         "coarser_mm": size,
     }
     try:
-        fom = remeshed(own.but(mesh__element_size_mm=size), getattr(files, "source", None))
+        fom = remeshed(settings.but(mesh__element_size_mm=size), getattr(files, "source", None))
     except UserError as error:
         unknown = dict.fromkeys(("error", "frequencies", "compliance"))
         return about | unknown | {"why": str(error)}

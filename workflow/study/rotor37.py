@@ -1,7 +1,9 @@
-"""Tables of frequencies of rotor 37: either prestress, running geometry, other edges."""
+"""Tables of frequencies of rotor 37: either prestress, running geometry, other edges.
 
-from collections.abc import Mapping, Sequence
-from typing import Any
+Rows are those of an experiment with ``frequencies.numbers``.
+"""
+
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -9,16 +11,15 @@ from numpy.typing import ArrayLike, NDArray
 from fem.assemble import STATES
 from simulate.sweeps.peak import crossing_of
 from workflow import markdown
+from workflow.experiment.row import ExperimentRow
 
 CUT = "cut"  # group of the rows with other cuts
 RUNS = "geometry as it runs"  # at the last speed
 MODES = 8  # of the tables
 HEADS = [f"mode {m}" for m in range(1, MODES + 1)]
 
-type Rows = Sequence[Mapping[str, Any]]  # of an experiment with ``frequencies.numbers``
 
-
-def prestress_table(rows: Rows) -> str:
+def prestress_table(rows: Sequence[ExperimentRow]) -> str:
     """Frequencies at three speeds with either prestress, and the crossing of engine order 4.
 
     Also with the geometry taken for that at the last speed.
@@ -46,19 +47,19 @@ def crossing(speeds: ArrayLike, omega: ArrayLike, k: int) -> float:
     )
 
 
-def edge_cuts_table(rows: Rows) -> str:
+def edge_cuts_table(rows: Sequence[ExperimentRow]) -> str:
     """Relative change of the frequencies at rest for other cuts of the edges."""
-    at_rest = {name: f[0] for name, f in _frequencies(rows).items()}
+    first = {name: f[0] for name, f in _frequencies(rows).items()}
     changes = {
-        row["row"]: at_rest[row["row"]] / at_rest[row["against"]] - 1
+        row["row"]: first[row["row"]] / first[row["against"]] - 1
         for row in rows
         if row["group"] == CUT
     }
-    lines = [[name, *(f"{100 * of:+.2f} %" for of in f)] for name, f in changes.items()]
+    lines = [[name, *(f"{100 * change:+.2f} %" for change in f)] for name, f in changes.items()]
     return markdown.table(["at rest, cut % of chord", *HEADS], lines)
 
 
-def _frequencies(rows: Rows) -> dict[str, NDArray[np.float64]]:
+def _frequencies(rows: Sequence[ExperimentRow]) -> dict[str, NDArray[np.float64]]:
     """Frequencies (speeds, ``MODES``), Hz, by row."""
     return {row["row"]: np.array(row["numbers"]["frequencies_Hz"])[:, :MODES] for row in rows}
 

@@ -36,8 +36,8 @@ def numbers(files: Any) -> list[Row]:
     rows = []
     for stage in yaml.safe_load(Path(files.plan).read_text()):
         logs = [stage["log"].format(name) for name in stage["of"]]
-        of_x = map(_nodes, logs) if stage["over"] == "nodes" else stage.get("x", stage["of"])
-        points = [{"x": x} | read_usage(log) for x, log in zip(of_x, logs, strict=True)]
+        places = map(_nodes, logs) if stage["over"] == "nodes" else stage.get("x", stage["of"])
+        points = [{"x": x} | read_usage(log) for x, log in zip(places, logs, strict=True)]
         rows.append(stage | {"points": points, "exponents": exponents(points)})
     return rows
 
@@ -61,7 +61,7 @@ def exponents(points: Points) -> dict[str, float | None]:
 
 def slope(points: Points, name: str) -> float:
     """Exponent p of y = c x^p, by least squares of the logarithms of the ``LAST`` points."""
-    x, y = (np.log([point[of] for point in points[-LAST:]]) for of in ("x", name))
+    x, y = (np.log([point[key] for point in points[-LAST:]]) for key in ("x", name))
     return float(np.polyfit(x, y, 1)[0])
 
 
@@ -85,16 +85,16 @@ def table(study: Sequence[Row]) -> str:
 
 
 def _cells(row: Row) -> list[str]:
-    (first, *_, last), of = row["points"], row["exponents"]
+    (first, *_, last), exponents = row["points"], row["exponents"]
     return [
         row["stage"],
         row["over"],
         f"{first['x']:,}",
         f"{last['x']:,}",
         f"{first['seconds']:.2g} to {markdown.two_digits(last['seconds'])}",
-        f"{of['seconds']:.2f}",
+        f"{exponents['seconds']:.2f}",
         f"{first['peak_MB']:.0f} to {last['peak_MB']:.0f}",
-        "-" if of["peak_MB"] is None else f"{of['peak_MB']:.2f}",
+        "-" if exponents["peak_MB"] is None else f"{exponents['peak_MB']:.2f}",
     ]
 
 
@@ -111,7 +111,7 @@ def draw(study: Sequence[Row]) -> Figure:
 
 def _records(row: Row) -> list[Row]:
     """Points of a stage; of those of one run, over the least value."""
-    of_run = row["panel"] == RUN
-    least = row["points"][0]["x"] if of_run else 1
-    of = {"panel": row["panel"], "line": row["over"] if of_run else row["stage"]}
-    return [point | of | {"x": point["x"] / least} for point in row["points"]]
+    is_run = row["panel"] == RUN
+    least = row["points"][0]["x"] if is_run else 1
+    labels = {"panel": row["panel"], "line": row["over"] if is_run else row["stage"]}
+    return [point | labels | {"x": point["x"] / least} for point in row["points"]]

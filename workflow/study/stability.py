@@ -7,9 +7,8 @@ from typing import Any
 import pandas as pd
 from matplotlib.figure import Figure
 
-from workflow.figures import lines
+from workflow.figures import lines, units
 
-MICRO = 1e6
 KINDS = {
     "As plain runs (`check: 0`)": "plain",
     "By default, risky runs checked": "default",
@@ -45,11 +44,11 @@ def extremes(study: Mapping[str, Any]) -> str:
 
 def sweeps(study: Sequence[Mapping[str, Any]]) -> str:
     """Outcomes of drawn sweeps with the default share of checks."""
-    peaks = [peak for of in study for peak in of["peaks"]]
+    peaks = [peak for sweep in study for peak in sweep["peaks"]]
     return (
         f"{len(study)} sweeps of 12 speeds, {len(peaks)} peaks that have a reference: "
         f"{sum(peak['silent'] for peak in peaks)} off by over 10 % and `ok`. Checks took "
-        f"{median(of['share'] for of in study):.0%} more steps (median)."
+        f"{median(sweep['share'] for sweep in study):.0%} more steps (median)."
     )
 
 
@@ -95,11 +94,13 @@ def draw(study: Mapping[str, Any]) -> Figure:
     }
     shown = pd.concat(
         pd.json_normalize(rows, sep=" ")
-        .rename(columns=of)
-        .melt("E", [*of.values()], "of", "step")
+        .rename(columns=names)
+        .melt("E", [*names.values()], "of", "step")
         .assign(panel=panel)
-        for panel, (rows, of) in panels.items()
+        for panel, (rows, names) in panels.items()
     )
     labels = {"E": "modulus $E$ of the liner, paper's unit", "step": "time step $h$, µs"}
     look = {"line": "of", "panel": "panel", "labels": labels, "log": "xy"}
-    return lines.draw(shown.assign(step=MICRO * shown["step"].astype(float)), "E", "step", **look)
+    return lines.draw(
+        shown.assign(step=units.MICRO * shown["step"].astype(float)), "E", "step", **look
+    )

@@ -43,22 +43,24 @@ def errors(single: Run, reference: Marched | None) -> Row:
     if reference is None:
         return about
     sides = single, reference.single
-    found = _errors(*((observables(of), numbers(of)) for of in sides))
-    known = {of.outcome.status for of in sides} == {"ok"}
-    return about | {"errors": {name: _known(of) if known else None for name, of in found.items()}}
+    changes = _errors(*((observables(side), numbers(side)) for side in sides))
+    both_ok = {side.outcome.status for side in sides} == {"ok"}
+    return about | {
+        "errors": {name: _plain(value) if both_ok else None for name, value in changes.items()}
+    }
 
 
 def _errors(
     run: tuple[Observables, dict[str, float]], reference: tuple[Observables, dict[str, float]]
 ) -> dict[str, float]:
-    (one, of_one), (other, of_other) = run, reference
+    (one, run_numbers), (other, reference_numbers) = run, reference
     first = FIRST_ROUNDS * len(other["history"]) // len(other["force_peak"])
     return {
         "amplitude": error(amplitude(one), amplitude(other)),
         "wear": error(on_rods(one["wear"], other["wear"].shape[1]), other["wear"]),
-        "volume": error(of_one["worn_volume"], of_other["worn_volume"]),
-        "lobes": abs(of_one["lobes"] - of_other["lobes"]),
-        "force": error(of_one["force_peak"], of_other["force_peak"]),
+        "volume": error(run_numbers["worn_volume"], reference_numbers["worn_volume"]),
+        "lobes": abs(run_numbers["lobes"] - reference_numbers["lobes"]),
+        "force": error(run_numbers["force_peak"], reference_numbers["force_peak"]),
         "history": error(one["history"][:first], other["history"][:first]),
     }
 
@@ -68,7 +70,7 @@ def amplitude(seen: Observables) -> float:
     return float(seen["spectrum"].max())
 
 
-def _known(value: float) -> float | None:
+def _plain(value: float) -> float | None:
     """A number of a JSON file, which has no nan."""
     return None if np.isnan(value) else rounded(value, DIGITS)
 
@@ -78,15 +80,15 @@ def at_peak(runs: xr.Dataset, rom: Rom, reference: Marched | None) -> Row:
     if reference is None:
         return {}
     ours, true = critical(runs, rom), critical(reference.runs, reference.rom)
-    return {"errors": {"Omega_c": _known(error(ours, true))}}
+    return {"errors": {"Omega_c": _plain(error(ours, true))}}
 
 
 def critical(runs: xr.Dataset, rom: Rom) -> float:
     """Omega_c of EO 4 over f1(0): maximum of a parabola; nan where the peak is at an end."""
-    found = peak_of(runs, rom, ORDERS[0])
-    if found is None or found.at_end:
+    peak = peak_of(runs, rom, ORDERS[0])
+    if peak is None or peak.at_end:
         return np.nan
-    around = slice(found.index - 1, found.index + 2)
+    around = slice(peak.index - 1, peak.index + 2)
     return summit(runs["speed_over_f1"].values[around], along_order(runs, ORDERS[0])[around])
 
 
@@ -104,7 +106,7 @@ def peaks(runs: xr.Dataset, rom: Rom, reference: Marched | None) -> Row:
     pairs = [(peak_of(runs, rom, k), peak_of(reference.runs, rom, k)) for k in ORDERS]
     return marches | {
         "errors": {
-            name: _known(max(error(getattr(a, name), getattr(b, name)) for a, b in pairs))
+            name: _plain(max(error(getattr(a, name), getattr(b, name)) for a, b in pairs))
             for name in ("Omega_c", "amplitude")
         }
     }

@@ -6,6 +6,7 @@ from typing import Any
 
 import pandas as pd
 
+from workflow.experiment.row import ExperimentRow
 from workflow.markdown import cell, percent, table
 from workflow.study.levels import (
     JUDGED,
@@ -13,21 +14,18 @@ from workflow.study.levels import (
     OBSERVABLES,
     OTHER_SCHEME,
     SCENES,
+    group_rows,
     levels,
-    of_group,
     uncertainty,
 )
-from workflow.study.trade import Row
 
 FLOOR = "uncertainty of the reference"
 COUNTED = "lobes"  # given as a number, all others in per cent
 SCHEMES = ("piecewise-exact", "central", "mass-scaled")
 HEADS = [name.replace("_", " ") for name in OBSERVABLES]
 
-type Rows = Sequence[Row]  # of the experiment
 
-
-def of_levels(rows: Rows) -> str:
+def by_level(rows: Sequence[ExperimentRow]) -> str:
     """Settings, largest error of each observable over all scenes, time per run and of `paper`.
 
     Errors are those of mesh, patches, natural modes, strips, step and rods together.
@@ -47,14 +45,14 @@ def of_levels(rows: Rows) -> str:
     return table(head, [*lines, [FLOOR, "", *floor, "", ""]])
 
 
-def schemes(rows: Rows) -> str:
+def schemes(rows: Sequence[ExperimentRow]) -> str:
     """CPU time (ms) of the cheapest run of each scheme that meets each level, by scene and error.
 
     Runs differ from their reference in scheme and step alone; those without a result meet none. The
     difference of two schemes at fine steps is the uncertainty.
     """
     columns = [(name, allowed) for allowed in LEVELS.values() for name in SCHEMES]
-    tried, lines = of_group(rows, "scheme"), []
+    tried, lines = group_rows(rows, "scheme"), []
     tried = tried.assign(kind=tried["settings"].map(scheme_of))
     for scene in SCENES:
         runs = tried[tried["scene"] == scene]
@@ -77,14 +75,14 @@ def scheme_of(settings: Mapping[str, Any]) -> str:
     return "central" if integrator.get("mass_scaling_hz") is None else "mass-scaled"
 
 
-def interfaces(rows: Rows) -> str:
+def interfaces(rows: Sequence[ExperimentRow]) -> str:
     """Errors of patches and strips, of natural modes and of the mesh, each against its finest."""
-    of = of_group(rows, "interface", "modes", "mesh").sort_values("scene", kind="stable")
-    lines = [[row["row"], row["scene"], *_cells(row)] for row in of.to_dict("records")]
+    runs = group_rows(rows, "interface", "modes", "mesh").sort_values("scene", kind="stable")
+    lines = [[row["row"], row["scene"], *_cells(row)] for row in runs.to_dict("records")]
     return table(["model", "scene", *HEADS], lines)
 
 
-def requirements(rows: Rows) -> str:
+def requirements(rows: Sequence[ExperimentRow]) -> str:
     """Changes of each scene without a feature, and the ratio of CPU times."""
     lines = [
         [*row["row"].split(": "), row["scene"], *_cells(row), f"{row['time_ratio']:.2f}"]
@@ -94,24 +92,24 @@ def requirements(rows: Rows) -> str:
     return table(head, sorted(lines, key=lambda line: line[0]))
 
 
-def with_ratios(rows: Rows, *groups: str) -> pd.DataFrame:
-    """``of_group``, with the ratio of CPU times of a row and of its reference."""
-    times, of = {(row["scene"], row["row"]): row["cpu_s"] for row in rows}, of_group(rows, *groups)
-    against = [times[pair] for pair in zip(of["scene"], of["against"], strict=True)]
-    return of.assign(time_ratio=of["cpu_s"] / against)
+def with_ratios(rows: Sequence[ExperimentRow], *groups: str) -> pd.DataFrame:
+    """``group_rows``, with the ratio of CPU times of a row and of its reference."""
+    times, runs = {(r["scene"], r["row"]): r["cpu_s"] for r in rows}, group_rows(rows, *groups)
+    against = [times[pair] for pair in zip(runs["scene"], runs["against"], strict=True)]
+    return runs.assign(time_ratio=runs["cpu_s"] / against)
 
 
-def fewer_rounds(rows: Rows) -> str:
+def fewer_rounds(rows: Sequence[ExperimentRow]) -> str:
     """Error of the amplitude and CPU time of a run, by revolutions before those of the spectrum."""
     lines = []
-    for name, runs in of_group(rows, "rounds").set_index("scene").groupby("row", sort=False):
-        of_scenes = runs.reindex(SCENES)
-        times = ", ".join(of_scenes["cpu_s"].map(_ms))
-        lines.append([name, *of_scenes["amplitude"].map(percent), times])
+    for name, runs in group_rows(rows, "rounds").set_index("scene").groupby("row", sort=False):
+        by_scene = runs.reindex(SCENES)
+        times = ", ".join(by_scene["cpu_s"].map(_ms))
+        lines.append([name, *by_scene["amplitude"].map(percent), times])
     return table(["revolutions before", *SCENES, "ms per run"], lines)
 
 
-def fewer_speeds(rows: Rows) -> str:
+def fewer_speeds(rows: Sequence[ExperimentRow]) -> str:
     """Errors of the peaks and CPU times of full sweeps, and of coarse ones refined around peaks."""
     lines = [
         [
@@ -131,20 +129,20 @@ def _ms(seconds: float) -> str:
     return "-" if isnan(seconds) else f"{1e3 * seconds:.0f}"
 
 
-def _level(of: Mapping[str, Any]) -> str:
+def _level(level_row: Mapping[str, Any]) -> str:
     """The level and its error; if no setting meets it, a note that this is the most accurate."""
-    level = f"{of['level']}, {of['allowed']:.0%}"
-    return level if of["met"] else f"{level}: not met, most accurate setting"
+    level = f"{level_row['level']}, {level_row['allowed']:.0%}"
+    return level if level_row["met"] else f"{level}: not met, most accurate setting"
 
 
 def _settings(rows: pd.DataFrame) -> str:
     """Settings with a flat tip, and the rods with the tilted tip, the last of the ``rows``."""
     flat, tilted = rows.iloc[0], rows.iloc[-1]
-    of, liner = flat["numbers"], flat["settings"]["liner"]
+    numbers, liner = flat["numbers"], flat["settings"]["liner"]
     rods = tilted["settings"]["liner"]["rods_per_round"]
     return (
-        f"blade {flat['blade']}: {of['patches']} patches (n = {of['n']}), "
-        f"{liner['strips']} strips, {of['steps']} steps, "
+        f"blade {flat['blade']}: {numbers['patches']} patches (n = {numbers['n']}), "
+        f"{liner['strips']} strips, {numbers['steps']} steps, "
         f"{liner['rods_per_round']} rods ({rods} tilted)"
     )
 
