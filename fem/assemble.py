@@ -7,7 +7,7 @@ import numpy as np
 
 from fem.cholesky import Cholesky
 from fem.interface import interface_of
-from fem.matrices import CODE, Constants, Matrices, State
+from fem.matrices import CODE, Constants, Matrices, Prestressed
 from fem.prestress import linear_states, mass, nonlinear_states
 from fem.solid import read_solid
 from geometry.blade import Blade
@@ -30,7 +30,7 @@ def over_speeds(
     mesh_path: str | Path,
     speeds: Iterable[float],
     cholesky: Cholesky | None = None,
-) -> tuple[Constants, Iterator[State]]:
+) -> tuple[Constants, Iterator[Prestressed]]:
     """M and S, and the state at each of the ``speeds`` (rad/s), taken when it is asked for.
 
     Parameters

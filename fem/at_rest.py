@@ -62,18 +62,18 @@ def at_rest(solid: Solid, Omega: float) -> NDArray[np.float64]:
     nodes = np.empty(len(X), int)  # of the mesh, by node of the space
     nodes[solid.V.dofmap.list] = solid.mesh.geometry.dofmaps[0]
 
-    def left(places: NDArray[np.float64]) -> NDArray[np.float64]:
+    def residual(places: NDArray[np.float64]) -> NDArray[np.float64]:
         """X + u(X) - x, (3 n,), over the blade's size, for nodes X at ``places`` (3 n,), m."""
         X[:] = places.reshape(-1, 3)
         (state,) = nonlinear_states(solid, np.array([Omega]), cholesky)
         u[nodes] = solid.field(state.u_static).x.array.reshape(-1, 3)
         return ((X + u - x) / size).ravel()
 
-    # the guess of the derivative of `left` by X is that of the plain fixed point, 1 / size
+    # the guess of the derivative of `residual` by X is that of the plain fixed point, 1 / size
     options = {"fatol": CLOSED, "maxiter": ROUNDS, "jac_options": {"alpha": -size}}
-    found = root(left, x.ravel(), method="anderson", options=options | {"line_search": None})
-    closed = abs(found.fun).max()
-    if not found.success:
+    solution = root(residual, x.ravel(), method="anderson", options=options | {"line_search": None})
+    closed = abs(solution.fun).max()
+    if not solution.success:
         raise MeshError(
             f"the shape at rest is not found: after {ROUNDS} steps {closed:.0e} of the blade's "
             f"size is left (allowed {CLOSED:.0e}); is it the speed of the coordinates, in rpm?",

@@ -31,7 +31,7 @@ class Deck(NamedTuple):
     turn: NDArray[np.float64] = np.eye(3)  # from the axes of the files
     unit: float = 1.0  # N/m of their unit of stiffness, and kg of that of mass
 
-    def matrix(self, found: FileMatrix) -> csr_matrix:
+    def matrix(self, file: FileMatrix) -> csr_matrix:
         """M or K (3 n, 3 n) of the free nodes in the blade's frame, kg or N/m.
 
         Rows and columns of the root's nodes are left out.
@@ -41,12 +41,12 @@ class Deck(NamedTuple):
         MeshError
             When rows are not those of the free nodes.
         """
-        node, direction = self._rows(found).T
+        node, direction = self._rows(file).T
         kept = np.flatnonzero(~np.isin(node, self.clamped))
         kept = kept[np.lexsort([direction[kept], node[kept]])]
         _require_same(np.column_stack([node, direction])[kept], _three_of(self.numbers))
         R = kron(eye_array(len(self.numbers)), self.turn, format="csr")
-        return csr_matrix(self.unit * (R @ found.A[kept][:, kept] @ R.T))
+        return csr_matrix(self.unit * (R @ file.A[kept][:, kept] @ R.T))
 
     def interface(self, patches: int) -> tuple[csr_matrix, NDArray[np.float64]]:
         """S (3 patches, 3 n) and camber line, as ``on_patches``.
@@ -56,11 +56,11 @@ class Deck(NamedTuple):
         S, camber = on_patches(self.points, self.tip, np.arange(3 * len(self.points)), patches)
         return csr_matrix(S @ kron(self.weights, eye_array(3))), camber
 
-    def _rows(self, found: FileMatrix) -> NDArray[np.int64]:
+    def _rows(self, file: FileMatrix) -> NDArray[np.int64]:
         """Node and direction of each row; those that the file names, else by number."""
-        if found.rows is not None:
-            return found.rows
-        n, columns = found.A.shape
+        if file.rows is not None:
+            return file.rows
+        n, columns = file.A.shape
         root = self.clamped if n > 3 * len(self.numbers) else self.clamped[:0]
         rows = _three_of(np.sort(np.append(self.numbers, root)))
         if not n == columns == len(rows):
@@ -108,7 +108,7 @@ def _three_of(numbers: NDArray) -> NDArray[np.int64]:
 
 def _require_same(rows: NDArray, needed: NDArray) -> None:
     """Refuse ``rows`` of nodes and directions that are not those that are needed."""
-    have, need = ({*map(tuple, of.tolist())} for of in (rows, needed))
+    have, need = ({*map(tuple, pairs.tolist())} for pairs in (rows, needed))
     if wrong := (have - need) or (need - have):
         node, direction = min(wrong)
         raise MeshError(

@@ -73,7 +73,7 @@ def allowed(mean: NDArray[np.float64], fatigue: Fatigue) -> NDArray[np.float64]:
     together stay below yield.
     """
     S_e, S_y, S_u = (
-        MEGA * of for of in (fatigue.endurance_MPa, fatigue.yield_MPa, fatigue.ultimate_MPa)
+        MEGA * limit for limit in (fatigue.endurance_MPa, fatigue.yield_MPa, fatigue.ultimate_MPa)
     )
     tension = np.maximum(mean, 0.0)
     lowered = {

@@ -65,7 +65,7 @@ def stress(solid: Solid, u: NDArray[np.float64], prestress: str) -> Stress:
     are not in K(Omega).
     """
     tensors = _strain_and_stress(solid, solid.field(u), prestress)
-    strain, sigma = (_averaged(solid, _expression(solid, of)) for of in tensors)
+    strain, sigma = (_averaged(solid, _expression(solid, tensor)) for tensor in tensors)
     return Stress(strain, sigma)
 
 
@@ -90,14 +90,14 @@ def linearised(
     """
     nodes = np.arange(len(solid.V.tabulate_dof_coordinates())) if nodes is None else nodes
     cells = np.flatnonzero(np.isin(solid.V.dofmap.list, nodes).any(axis=1))
-    at, v = solid.field(u), fem.Function(solid.V)
-    tensors = _strain_and_stress(solid, at, prestress)
-    rates = [_expression(solid, ufl.derivative(of, at, v)) for of in tensors]
-    values, found = [_expression(solid, of) for of in tensors], []
-    for of_row, direction in zip([values] + [rates] * len(along), [0.0, *along], strict=True):
+    deflected, v = solid.field(u), fem.Function(solid.V)
+    tensors = _strain_and_stress(solid, deflected, prestress)
+    rates = [_expression(solid, ufl.derivative(tensor, deflected, v)) for tensor in tensors]
+    values, results = [_expression(solid, tensor) for tensor in tensors], []
+    for row, direction in zip([values] + [rates] * len(along), [0.0, *along], strict=True):
         v.x.array[solid.free] = direction
-        found.append([_averaged(solid, of, cells)[nodes] for of in of_row])
-    strain, sigma = np.array(found)[..., *TENSOR].swapaxes(0, 1)
+        results.append([_averaged(solid, tensor, cells)[nodes] for tensor in row])
+    strain, sigma = np.array(results)[..., *TENSOR].swapaxes(0, 1)
     return strain, sigma
 
 
@@ -248,14 +248,16 @@ def away(
     mesh, under the contact with the patches.
     """
     points = solid.V.tabulate_dof_coordinates()
-    at = points if places is None else places
+    where = points if places is None else places
     length = np.ptp(np.hypot(points[:, 0], points[:, 1]))
     ends = solid.clamped_coordinates(), points[np.unique(solid.tip)]
     widths = (AWAY * length if width is None else width for width in (from_clamp, from_tip))
     near = [
-        cKDTree(of).query(at)[0] <= width for of, width in zip(ends, widths, strict=True) if len(of)
+        cKDTree(end).query(where)[0] <= width
+        for end, width in zip(ends, widths, strict=True)
+        if len(end)
     ]
-    return ~np.any(near, axis=0) if near else np.ones(len(at), bool)
+    return ~np.any(near, axis=0) if near else np.ones(len(where), bool)
 
 
 def gauge_rows(
@@ -283,14 +285,16 @@ def gauge_rows(
         As ``grid``.
     """
     solid, A = read_solid(str(mesh_path), blade.material), axes(blade.drawn)
-    order, found = dofs_at(coordinates, solid.free_coordinates()).ravel(), []
+    order, readings = dofs_at(coordinates, solid.free_coordinates()).ravel(), []
     placed = [grid(solid, A, gauge, angle) for gauge, angle in grids]
-    weights, along = (np.array(of) for of in zip(*placed, strict=True))
+    weights, along = map(np.array, zip(*placed, strict=True))
     nodes = np.flatnonzero(weights.any(axis=0))
     for u in statics:
         fields = linearised(solid, u[order], T.T[:, order], blade.prestress, nodes)
-        found.append(np.einsum("gm,qkmc,gc->qgk", weights[:, nodes], fields, along, optimize=True))
-    return np.array(found)
+        readings.append(
+            np.einsum("gm,qkmc,gc->qgk", weights[:, nodes], fields, along, optimize=True)
+        )
+    return np.array(readings)
 
 
 def grid(
@@ -310,18 +314,18 @@ def grid(
     cells, points = grid_of(solid)
     facets = exterior(cells)
     surface = pv.PolyData.from_regular_faces(points, facets[:, :3])
-    at, direction = A @ gauge.at, A @ gauge.direction
-    facet, foot = _closest(surface, at)
+    place, direction = A @ gauge.at, A @ gauge.direction
+    facet, foot = _closest(surface, place)
     normal = normals(facets[[facet]], points)[0]
     across = np.cross(normal, direction)
     sides = np.cross(across, normal), across * np.sign(np.linalg.det(A))  # A may mirror
-    first, second = (of / (np.linalg.norm(of) or 1.0) for of in sides)
+    first, second = (vector / (np.linalg.norm(vector) or 1.0) for vector in sides)
     e = np.cos(np.radians(angle)) * first + np.sin(np.radians(angle)) * second
     places = foot + 1e-3 * gauge.length_mm * (middles(PLACES)[:, None] - 0.5) * e
     under, feet = _closest(surface, places)
     for refused, why in (
         (
-            (off := np.linalg.norm(at - foot)) > FARTHEST,
+            (off := np.linalg.norm(place - foot)) > FARTHEST,
             f"at {[*gauge.at]}: {1e3 * off:.3g} mm from the surface; allowed {1e3 * FARTHEST:g} mm",
         ),
         (

@@ -60,12 +60,12 @@ def read_matrices(blade: GivenMatrices, name: str, folder: str | Path) -> Matric
     geometry.project.errors.MeshError
         When the facets of the tip do not allow the interface.
     """
-    of, folder = blade.full_matrices, Path(folder)
-    deck = deck_of(of.mesh_file, folder) if of.mesh_file else _of_nodes(of, folder)
-    M = _symmetric(folder / of.M, "M", deck)
-    K = tuple(_symmetric(folder / of.K[speed], "K", deck) for speed in blade.speeds)
-    S, camber = _interface(of, folder, deck, blade.patches)
-    files = [file_hash(folder / file) for file in blade.files]
+    files, folder = blade.full_matrices, Path(folder)
+    deck = deck_of(files.mesh_file, folder) if files.mesh_file else _of_nodes(files, folder)
+    M = _symmetric(folder / files.M, "M", deck)
+    K = tuple(_symmetric(folder / files.K[speed], "K", deck) for speed in blade.speeds)
+    S, camber = _interface(files, folder, deck, blade.patches)
+    hashes = [file_hash(folder / file) for file in blade.files]
     fom = Matrices(
         M=M,
         K=K,
@@ -79,74 +79,74 @@ def read_matrices(blade: GivenMatrices, name: str, folder: str | Path) -> Matric
         u_static=np.full((len(K), M.shape[0]), np.nan),  # not known
         residuals=np.full(len(K), np.nan),
         provenance=Provenance(
-            name, fingerprint(files), blade.settings_of_matrices(), code_hash(*CODE)
+            name, fingerprint(hashes), blade.settings_of_matrices(), code_hash(*CODE)
         ),
     )
-    _check(fom, of, folder)
+    _check(fom, files, folder)
     return fom
 
 
-def _of_nodes(of: FullMatrices, folder: Path) -> Deck:
+def _of_nodes(files: FullMatrices, folder: Path) -> Deck:
     """Nodes of a table, all free, and facets of the tip between them."""
-    nodes = _table(folder / known(of.nodes, "nodes"), XYZ)
+    nodes = _table(folder / known(files.nodes, "nodes"), XYZ)
     return Deck(
         numbers=np.arange(len(nodes)) + 1,
         clamped=np.empty(0, dtype=int),
         coordinates=nodes,
-        hub_radius=known(of.hub_radius_m, "hub_radius_m"),
+        hub_radius=known(files.hub_radius_m, "hub_radius_m"),
         points=nodes,
-        tip=_facets(folder / of.tip, len(nodes)) if of.tip else np.empty((0, 6), dtype=int),
+        tip=_facets(folder / files.tip, len(nodes)) if files.tip else np.empty((0, 6), dtype=int),
         weights=eye_array(len(nodes)),
     )
 
 
 def _interface(
-    of: FullMatrices, folder: Path, deck: Deck, patches: int
+    files: FullMatrices, folder: Path, deck: Deck, patches: int
 ) -> tuple[csr_matrix, NDArray[np.float64]]:
     """S (3 patches, n_full) and camber line, of files or on the facets of the tip."""
-    if of.S is None:
+    if files.S is None:
         return deck.interface(patches)
-    S, needed = read_matrix(folder / of.S, "S").A, (3 * patches, 3 * len(deck.numbers))
+    S, needed = read_matrix(folder / files.S, "S").A, (3 * patches, 3 * len(deck.numbers))
     require(
-        folder / of.S,
+        folder / files.S,
         (
             S.shape == needed,
             f"{S.shape[0]} rows and {S.shape[1]} columns, needs {needed[0]} and {needed[1]}: three "
             "for each of `patches` and `nodes`",
         ),
     )
-    return S, _camber(_table(folder / known(of.camber, "camber"), XYZ))
+    return S, _camber(_table(folder / known(files.camber, "camber"), XYZ))
 
 
-def _check(fom: Matrices, of: FullMatrices, folder: Path) -> None:
+def _check(fom: Matrices, files: FullMatrices, folder: Path) -> None:
     """Check that the matrices are those of a blade in SI, in its frame, at its nodes."""
-    mesh = of.mesh_file.file if of.mesh_file else known(of.nodes, "nodes")
-    require(folder / (of.camber or mesh), *tip_checks(fom.camber, fom.span, fom.top_speed))
+    mesh = files.mesh_file.file if files.mesh_file else known(files.nodes, "nodes")
+    require(folder / (files.camber or mesh), *tip_checks(fom.camber, fom.span, fom.top_speed))
     measures = [
-        *_of_mass(fom, of),
-        *_of_stiffness(fom, of),
-        *(_of_operator(fom, of.S) if of.S else ()),
+        *_of_mass(fom, files),
+        *_of_stiffness(fom, files),
+        *(_of_operator(fom, files.S) if files.S else ()),
     ]
     for file, what, value, (least, most), remedy in measures:
         fault = f"{what}: {value:.3g}, allowed {least:g} to {most:g}: {remedy}"
         require(folder / file, (least <= value <= most, fault))
 
 
-def _of_mass(fom: Matrices, of: FullMatrices) -> list[Measure]:
+def _of_mass(fom: Matrices, files: FullMatrices) -> list[Measure]:
     e = np.tile(np.eye(3), (len(fom.coordinates), 1))
     masses = e.T @ (fom.M @ e)
     mass = masses[0, 0]
     box = np.sqrt(np.linalg.det(12 * np.cov(fom.coordinates.T)))  # a box's own: its volume
     return [
         (
-            of.M,
+            files.M,
             "difference of the masses in x, y and z, or mass that couples them, over the mass",
             abs(masses - mass * np.eye(3)).max() / mass,
             (0.0, RIGID),
             "DoFs must be x, y, z of each node",
         ),
         (
-            of.M,
+            files.M,
             f"mass of {mass:.4g} kg over the box of {box:.3g} m3 that the nodes fill, kg/m3",
             mass / box,
             DENSITY,
@@ -155,7 +155,7 @@ def _of_mass(fom: Matrices, of: FullMatrices) -> list[Measure]:
     ]
 
 
-def _of_stiffness(fom: Matrices, of: FullMatrices) -> list[Measure]:
+def _of_stiffness(fom: Matrices, files: FullMatrices) -> list[Measure]:
     """Rigid motions need forces at the clamp alone; how fast waves run shows units.
 
     At a speed translations e in x and y meet spin softening, K(Omega) e = -Omega^2 M e away from
@@ -174,14 +174,14 @@ def _of_stiffness(fom: Matrices, of: FullMatrices) -> list[Measure]:
     squared = (stretched @ (K @ stretched)) / (stretched @ (fom.M @ stretched))
     return [
         (
-            of.K[0],
+            files.K[0],
             "forces away from the clamp in rotations of the whole blade, over those of single DoFs",
             np.linalg.norm(forces[away]) / np.linalg.norm(alone[away]),
             (0.0, SAME_PLACES),
             "nodes must be in the order and the frame of the matrices, DoFs x, y, z of each",
         ),
         (
-            of.K[0],
+            files.K[0],
             "forces away from the clamp in translations of the whole blade, over those of single "
             "DoFs",
             np.linalg.norm((K @ moved)[away]) / np.linalg.norm((abs(K) @ moved)[away]),
@@ -189,21 +189,21 @@ def _of_stiffness(fom: Matrices, of: FullMatrices) -> list[Measure]:
             "K needs nine digits, better ten: fewer lose the bending of a thin blade in round-off",
         ),
         (
-            of.K[0],
+            files.K[0],
             "forces in rotations of the whole blade, over those of single DoFs",
             np.linalg.norm(forces) / np.linalg.norm(alone),
             (RIGID, 1.0),
             "K must be clamped: leave out the DoFs of clamped nodes",
         ),
         (
-            of.K[0],
+            files.K[0],
             "speed of waves along the blade, m/s",
             fom.span * np.sqrt(squared / 3),  # exact for a bar
             WAVE_SPEED,
             "check the units of K (N/m) and M (kg), and hub_radius_m",
         ),
         (
-            of.M,
+            files.M,
             "mass between DoFs that K couples, over that between any",
             abs(fom.M).multiply(fom.K[0].astype(bool)).sum() / abs(fom.M).sum(),
             AS_SAID,
@@ -211,7 +211,7 @@ def _of_stiffness(fom: Matrices, of: FullMatrices) -> list[Measure]:
         ),
         *(
             (
-                of.K[speed],
+                files.K[speed],
                 "change from K at rest, over its largest entry",
                 abs(spun - K).max() / abs(K).max(),
                 CHANGE,
@@ -221,7 +221,7 @@ def _of_stiffness(fom: Matrices, of: FullMatrices) -> list[Measure]:
         ),
         *(
             (
-                of.K[speed],
+                files.K[speed],
                 "speed that its spin softening is of, over the given one",
                 np.sqrt(
                     max(-((spun @ moved[:, :2]) * inertia)[away].sum(), 0.0)
@@ -243,8 +243,8 @@ def _of_operator(fom: Matrices, file: str) -> list[Measure]:
     fields = np.column_stack(
         [np.tile(np.eye(3), (len(fom.coordinates), 1)), fom.coordinates.ravel() / chord]
     )
-    known = np.dstack([directions(cartesian(line)), line * [1, 0, 1] / chord])
-    error = abs((fom.S @ fields).reshape(known.shape) - known).max(axis=(1, 2))
+    exact = np.dstack([directions(cartesian(line)), line * [1, 0, 1] / chord])
+    error = abs((fom.S @ fields).reshape(exact.shape) - exact).max(axis=(1, 2))
     return [
         (
             file,
@@ -262,14 +262,14 @@ def _symmetric(path: Path, letter: str, deck: Deck) -> csr_matrix:
     """M or K (3 n, 3 n); symmetric to the last bit."""
     with about(path, GivenError):
         A = deck.matrix(read_matrix(path, letter))
-    apart = abs(A - A.T).max() / (abs(A).max() or 1.0)
+    asymmetry = abs(A - A.T).max() / (abs(A).max() or 1.0)
     diagonal = A.diagonal()
     worst = int(np.argmax(~((diagonal > 0) & (diagonal < LARGEST))))
     require(
         path,
         (
-            apart <= SYMMETRIC,
-            f"not symmetric, by {apart:.2g} of its largest entry; allowed {SYMMETRIC:g} (a "
+            asymmetry <= SYMMETRIC,
+            f"not symmetric, by {asymmetry:.2g} of its largest entry; allowed {SYMMETRIC:g} (a "
             f"triangle alone needs the word `symmetric` in its first line)",
         ),
         (

@@ -20,7 +20,7 @@ from scipy.spatial.transform import Rotation
 
 import basix
 
-from fem.matrices import Interface
+from fem.matrices import InterfaceOperator
 from fem.solid import Solid
 from geometry.blade import Blade
 from geometry.facets import shape_functions, shape_gradients
@@ -32,7 +32,7 @@ DEGREE = 24  # of the quadrature: hat functions have kinks within facets
 BEYOND = 1e-3  # of the chord, by which a facet may bulge beyond the outline's extremes
 
 
-def interface_of(solid: Solid, blade: Blade) -> Interface:
+def interface_of(solid: Solid, blade: Blade) -> InterfaceOperator:
     """Interface of the blade on the facets ``solid.tip``.
 
     Raises
@@ -47,10 +47,10 @@ def interface_of(solid: Solid, blade: Blade) -> Interface:
         x, y, z = there.T
         rtz = np.column_stack([np.hypot(x, y), np.arctan2(y, x), z])
         S = at_places(_spread(values, nodes, len(points)), there, solid.free)
-        return Interface(S, tip.xi(there), rtz, tip.camber_line())
+        return InterfaceOperator(S, tip.xi(there), rtz, tip.camber_line())
     xi = hat_nodes(blade.interface.patches)
     S, camber = on_patches(points, facets, solid.free, len(xi))
-    return Interface(S, xi, np.empty((0, 3)), camber)
+    return InterfaceOperator(S, xi, np.empty((0, 3)), camber)
 
 
 def on_patches(
@@ -99,9 +99,9 @@ def quadrature(nodes: NDArray) -> tuple[NDArray, NDArray, NDArray]:
     """
     x, weights = map(np.asarray, basix.make_quadrature(basix.CellType.triangle, DEGREE))
     values = shape_functions(x)
-    at = np.einsum("qn,knd->kqd", values, nodes)
+    places = np.einsum("qn,knd->kqd", values, nodes)
     tangents = np.einsum("qne,knd->ekqd", shape_gradients(x), nodes)
-    return at, np.linalg.norm(np.cross(*tangents), axis=2) * weights, values
+    return places, np.linalg.norm(np.cross(*tangents), axis=2) * weights, values
 
 
 def directions(points: NDArray[np.float64]) -> NDArray[np.float64]:

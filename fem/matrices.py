@@ -15,7 +15,7 @@ CODE = ("fem.assemble",)  # module that computes its numbers; the mesh has a has
 
 
 @dataclass(frozen=True)
-class State:
+class Prestressed:
     """Prestressed state at one speed, free DoFs."""
 
     speed: float  # rad/s
@@ -25,7 +25,7 @@ class State:
 
 
 @frozen
-class Interface:
+class InterfaceOperator:
     """S, with the places of the interface on the tip."""
 
     # (3 n, n_full), 3 i + d: direction d (radial, tangential, axial) of patch or point i
@@ -38,7 +38,7 @@ class Interface:
 
 
 @frozen
-class Constants(Interface):
+class Constants(InterfaceOperator):
     """M, the interface operator S and all else that does not depend on the speed, free DoFs.
 
     DoF 3 p + c is component c (x, y, z) of free node p.
@@ -78,7 +78,7 @@ class Matrices(Constants, Stored):
         return float(self.speeds[-1] or self.provenance.settings["max_speed_rad_s"])
 
     @classmethod
-    def of(cls, constants: Constants, states: Iterable[State]) -> Self:
+    def of(cls, constants: Constants, states: Iterable[Prestressed]) -> Self:
         """Matrices at the speeds of ``states``."""
         states = list(states)
         return cls(
@@ -89,9 +89,9 @@ class Matrices(Constants, Stored):
             residuals=np.array([state.residual for state in states]),
         )
 
-    def states(self) -> Iterator[State]:
+    def states(self) -> Iterator[Prestressed]:
         """The state at each speed."""
-        return map(State, self.speeds, self.K, self.u_static, self.residuals)
+        return map(Prestressed, self.speeds, self.K, self.u_static, self.residuals)
 
     def at(self, speeds: ArrayLike) -> "Matrices":
         """The matrices at ``speeds`` (rad/s) only, which must be among their own.
@@ -101,10 +101,10 @@ class Matrices(Constants, Stored):
         ValueError
             When a speed is not among them.
         """
-        apart = abs(self.speeds - np.reshape(speeds, (-1, 1)))
-        if apart.min(axis=1).max() > 1e-12 * self.speeds[-1]:
+        distance = abs(self.speeds - np.reshape(speeds, (-1, 1)))
+        if distance.min(axis=1).max() > 1e-12 * self.speeds[-1]:
             raise ValueError(f"matrices at {self.speeds} rad/s hold none at some of {speeds}")
-        kept = apart.argmin(axis=1)
+        kept = distance.argmin(axis=1)
         return replace(
             self,
             K=tuple(self.K[j] for j in kept),
@@ -126,6 +126,6 @@ class Matrices(Constants, Stored):
         if len(self.K) != len(self.speeds):
             raise ValueError(f"K: {len(self.K)} matrices at {len(self.speeds)} speeds")
         for name in ("u_static", "residuals"):
-            known = np.isfinite(getattr(self, name))
-            if known.any() and not known.all():  # of matrices made elsewhere: nan throughout
+            finite = np.isfinite(getattr(self, name))
+            if finite.any() and not finite.all():  # of matrices made elsewhere: nan throughout
                 raise ValueError(f"{name}: not finite")

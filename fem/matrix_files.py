@@ -60,7 +60,7 @@ def read_matrix(path: Path, letter: str) -> FileMatrix:
     with about(path, GivenError):
         require_file(path, READERS)
     try:
-        found = READERS[path.suffix.lower()](path, letter)
+        matrix = READERS[path.suffix.lower()](path, letter)
     except GivenError as error:
         raise error.within(path) from None
     except Exception as error:  # readers raise various exceptions for damaged files
@@ -70,11 +70,11 @@ def read_matrix(path: Path, letter: str) -> FileMatrix:
     require(
         path,
         (
-            np.isrealobj(found.A.data) and np.isfinite(found.A.data).all(),
+            np.isrealobj(matrix.A.data) and np.isfinite(matrix.A.data).all(),
             "holds values that are not finite real numbers",
         ),
     )
-    return found._replace(A=found.A.astype(float))
+    return matrix._replace(A=matrix.A.astype(float))
 
 
 def _npz(path: Path, letter: str) -> FileMatrix:
@@ -138,7 +138,9 @@ def _dmig(path: Path, letter: str) -> FileMatrix:
         ),
         (line.endswith("\n"), "its last line has no end: is the file cut short?"),
     )
-    labels, values = zip(*((of[1:5], of[5]) for of in entries if of[0] in names), strict=True)
+    labels, values = zip(
+        *((entry[1:5], entry[5]) for entry in entries if entry[0] in names), strict=True
+    )
     return _of_labels(np.array(labels, dtype=int), np.array(values))
 
 

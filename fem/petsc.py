@@ -27,11 +27,11 @@ try:
     from slepc4py import SLEPc
 
     # Basix has the version of its DOLFINx, whose own name differs between the sources.
-    found = version("fenics-basix")
+    installed = version("fenics-basix")
 except (ModuleNotFoundError, PackageNotFoundError) as error:
     raise ImportError(f"{error.name} is not installed: {SOURCES}") from None
-if found.split(".")[:2] != NEEDED.split("."):
-    raise ImportError(f"DOLFINx {found} is installed: {SOURCES}")
+if installed.split(".")[:2] != NEEDED.split("."):
+    raise ImportError(f"DOLFINx {installed} is installed: {SOURCES}")
 if PETSc.ScalarType.__name__ != "float64":
     raise ImportError(f"PETSc is installed with {PETSc.ScalarType.__name__}: {SOURCES}")
 

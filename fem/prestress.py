@@ -13,7 +13,7 @@ from dolfinx import fem
 from dolfinx.fem.petsc import LinearProblem, NonlinearProblem
 
 from fem.cholesky import Cholesky
-from fem.matrices import State
+from fem.matrices import Prestressed
 from fem.solid import Solid, SymmetricForm, green_lagrange, small_strain
 from geometry.project import UserError
 
@@ -32,7 +32,7 @@ class EquilibriumError(UserError):
 
 def nonlinear_states(
     solid: Solid, speeds: Iterable[float], cholesky: Cholesky | None = None
-) -> Iterator[State]:
+) -> Iterator[Prestressed]:
     """States of prestress `nonlinear` at ascending ``speeds`` (rad/s).
 
     ``cholesky``, if given, holds the factor of each state's K. The next equilibrium is then sought
@@ -69,14 +69,14 @@ class _Equilibria:
         self._load = float(np.linalg.norm(load.array[solid.free]))
         self._equilibria: list[tuple[float, NDArray]] = []  # Omega, deflection
 
-    def state(self, speed: float) -> State:
+    def state(self, speed: float) -> Prestressed:
         """State at ``speed`` (rad/s), its K factorised if there is a Cholesky."""
         last = self._last
         residual = self.reach(speed) if speed > 0 else 0.0
         K = self._tangent.matrix()
         if self._cholesky:
             _require_stable(self._cholesky.of(K).negative, speed, last)
-        return State(speed, K, self.u.x.array[self._free].copy(), residual)
+        return Prestressed(speed, K, self.u.x.array[self._free].copy(), residual)
 
     @property
     def _last(self) -> float:
@@ -160,7 +160,7 @@ def _start(equilibria: list[tuple[float, NDArray]], Omega: float) -> NDArray | f
 
 def linear_states(
     solid: Solid, speeds: Iterable[float], cholesky: Cholesky | None = None
-) -> Iterator[State]:
+) -> Iterator[Prestressed]:
     """States of prestress `linear`, Eq. (d): K is linear in Omega^2 by construction.
 
     ``cholesky`` is not used: no equilibrium is iterated.
@@ -181,7 +181,7 @@ def linear_states(
     K0, K1 = solid.matrix(elastic), solid.matrix(geometric - solid.spin_load(du, v))
     u1_free = u1.x.array[solid.free]
     for speed in speeds:
-        yield State(speed, K0 + speed**2 * K1, speed**2 * u1_free, 0.0)
+        yield Prestressed(speed, K0 + speed**2 * K1, speed**2 * u1_free, 0.0)
 
 
 def mass(solid: Solid) -> csr_matrix:

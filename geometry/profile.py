@@ -16,7 +16,7 @@ from geometry.blade import Sections
 
 
 @dataclass(frozen=True)
-class Profile:
+class Airfoil:
     """One section; lengths in m, angle in rad."""
 
     x: float  # plane of the section
@@ -58,7 +58,7 @@ class Profile:
         return self.place([0, 0.5, 1], [edge, edge + 2 * rise, edge])
 
 
-def profile_at(s: Sections, x: float) -> Profile:
+def profile_at(s: Sections, x: float) -> Airfoil:
     """Section of the blade in the plane at ``x`` (m), linear in x, also beyond hub and tip."""
     fraction = (x - s.hub_radius) / s.span
 
@@ -67,7 +67,7 @@ def profile_at(s: Sections, x: float) -> Profile:
         return hub + fraction * (tip - hub)
 
     chord = between(s.hub.chord_mm, s.tip.chord_mm) * 1e-3
-    return Profile(
+    return Airfoil(
         x=x,
         chord=chord,
         thickness=between(s.hub.thickness_mm, s.tip.thickness_mm) * 1e-3,

@@ -15,14 +15,14 @@ def main(arguments: list[str] | None = None) -> int:
     checked = commands.add_parser("check", help="check a reduced model made elsewhere")
     checked.add_argument("file", help="NetCDF 4, as rom/README.md describes it")
     options = parser.parse_args(arguments)
-    found = report(options.file)
-    for line in found.shown:
+    model_check = report(options.file)
+    for line in model_check.shown:
         print(line)
-    for fault in found.faults:
+    for fault in model_check.faults:
         print(f"{options.file}: {fault}", file=sys.stderr)
-    if not found.faults:
+    if not model_check.faults:
         print("The file cannot show, and is not checked:", *UNCHECKED, sep="\n- ")
-    return 2 if found.faults else 0
+    return 2 if model_check.faults else 0
 
 
 if __name__ == "__main__":

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eigh
 
-from fem.matrices import Constants, Matrices, State
+from fem.matrices import Constants, Matrices, Prestressed
 from geometry.blade import EnrichedBasis, PaperBasis
 from geometry.project import Say, silent
 from rom.basis import project
@@ -75,7 +75,7 @@ def _frequencies(K: NDArray, M: NDArray) -> NDArray:
 
 def resolved(
     fom: Constants,
-    states: Iterator[State],
+    states: Iterator[Prestressed],
     speeds: list[float],
     basis: EnrichedBasis | PaperBasis,
     say: Say = silent,
@@ -93,28 +93,28 @@ def resolved(
     RomError
         When ``MOST`` speeds are not enough.
     """
-    found = list(islice(states, len(speeds)))
+    chosen = list(islice(states, len(speeds)))
     if isinf(basis.tolerance_percent):
-        return Matrices.of(fom, found)
+        return Matrices.of(fom, chosen)
     # modes at an inner speed stand for those of the whole range
-    T = ShiftInvert(found[-2].K, fom.M).modes(MODES + FURTHER).Phi
+    T = ShiftInvert(chosen[-2].K, fom.M).modes(MODES + FURTHER).Phi
     M = project(fom.M, T)
     # nan, of three speeds, is not small enough either
-    while not (error := _error(M, T, found)) <= basis.tolerance_percent / 100 / SAFETY:
-        through = f"frequencies of K(Omega) through {len(found)} speeds"
+    while not (error := _error(M, T, chosen)) <= basis.tolerance_percent / 100 / SAFETY:
+        through = f"frequencies of K(Omega) through {len(chosen)} speeds"
         shown = f"{through} err by some {100 * error:.2g} %"
-        if len(found) == MOST:
+        if len(chosen) == MOST:
             raise RomError(
                 f"{shown}, for basis.tolerance_percent {basis.tolerance_percent:g} too much: lower "
                 f"the highest speed, or allow more"
             )
         speeds.append(_next(speeds))
         say(f"{shown}: one more, {speeds[-1]:.6g} rad/s")
-        found = sorted([*found, next(states)], key=lambda state: state.speed)
-    return Matrices.of(fom, found)
+        chosen = sorted([*chosen, next(states)], key=lambda state: state.speed)
+    return Matrices.of(fom, chosen)
 
 
-def _error(M: NDArray, T: NDArray, states: list[State]) -> float:
+def _error(M: NDArray, T: NDArray, states: list[Prestressed]) -> float:
     """Error between the speeds of ascending ``states``, in the basis T."""
     K = np.array([project(state.K, T) for state in states])
     return error_between(M, K, np.array([state.speed for state in states]))

@@ -64,15 +64,16 @@ class RomCheck(Stored):
         """
         error, (speed, mode) = abs(self.error), self.worst
         allowed = f"basis.tolerance_percent {tolerance_percent:g}"
-        at = f"at {self.speeds[speed]:.6g} rad/s"
+        where = f"at {self.speeds[speed]:.6g} rad/s"
         if np.isfinite(tolerance_percent) and not np.isfinite(error).all():
             raise RomError(
-                f"the reduced K(Omega) is not positive definite {at}, where the full one is: {MORE}"
+                f"the reduced K(Omega) is not positive definite {where}, where the full one "
+                f"is: {MORE}"
             )
         if error.max() > tolerance_percent / 100:
             raise RomError(
-                f"frequency {mode + 1} is off by {100 * error.max():.3g} % {at}, above {allowed}; "
-                f"{self._remedy(error)} or allow more"
+                f"frequency {mode + 1} is off by {100 * error.max():.3g} % {where}, above "
+                f"{allowed}; {self._remedy(error)} or allow more"
             )
         self._require_between(tolerance_percent, allowed)
 
@@ -125,7 +126,7 @@ def check(rom: Rom, full: FullModel) -> RomCheck:
     reduced = np.array([_frequencies(rom, speed) for speed in full.speeds])
     # of the full model in each direction: speeds, places, 3
     P, C = hats(rom.places, rom.xi), full.compliance.reshape(-1, *(len(rom.xi), 3) * 2)
-    own = np.einsum("pi,sidjd,pj->spd", P, C, P)
+    of_each = np.einsum("pi,sidjd,pj->spd", P, C, P)
     compliance = np.array([rom.compliance(speed) for speed in full.speeds])
     # of matrices from elsewhere: our own basis sees to K(Omega) between its speeds itself
     elsewhere = "full_matrices" in rom.provenance.settings
@@ -135,7 +136,7 @@ def check(rom: Rom, full: FullModel) -> RomCheck:
         full=full.omega,
         reduced=reduced[:, :modes],
         xi=rom.places,
-        compliance_error=compliance / own[..., : len(rom.directions)] - 1,
+        compliance_error=compliance / of_each[..., : len(rom.directions)] - 1,
         highest=float(np.nanmax(reduced)),
         between=error_between(rom.M, K, full.speeds) if elsewhere else np.nan,
         provenance=rom.provenance,
@@ -143,7 +144,7 @@ def check(rom: Rom, full: FullModel) -> RomCheck:
 
 
 def further_speeds(
-    found: RomCheck, basis: NDArray[np.float64], tolerance_percent: float
+    check: RomCheck, basis: NDArray[np.float64], tolerance_percent: float
 ) -> NDArray[np.float64]:
     """Speeds, rad/s, at which a model is to be checked, too: none where neighbours agree.
 
@@ -154,8 +155,8 @@ def further_speeds(
     """
     x = (basis / basis[-1]) ** 2
     places = places_between(x)
-    near = abs(found.speeds[:, None] - basis[-1] * np.sqrt(places)).argmin(axis=0)
-    error = abs(found.error).max(axis=1)[near]
+    near = abs(check.speeds[:, None] - basis[-1] * np.sqrt(places)).argmin(axis=0)
+    error = abs(check.error).max(axis=1)[near]
     c = error / node_polynomial(x, places)
     pairs = sliding_window_view(c, 2), sliding_window_view(error, 2)
     differs = pairs[0].max(axis=1) > APART * pairs[0].min(axis=1)

@@ -118,26 +118,26 @@ def check_foreign(rom: Rom) -> Report:
 
 
 def _read(path: str | Path, blade: str) -> Rom:
-    found = _values(path)
-    rom = _rom(found, blade, file_hash(path))
-    if faults := _shape_faults(rom, found["power"]):
+    variables = _values(path)
+    rom = _rom(variables, blade, file_hash(path))
+    if faults := _shape_faults(rom, variables["power"]):
         raise RomError("\n".join(f"{path}: {fault}; see {PAGE[:-1]}" for fault in faults))
-    return rom if "f1" in found else replace(rom, f1=_first_frequency(rom))
+    return rom if "f1" in variables else replace(rom, f1=_first_frequency(rom))
 
 
 def _values(path: str | Path) -> dict[str, Any]:
     dims = {f.name: f.metadata["dims"] for f in fields(Rom) if f.metadata} | {"power": ("power",)}
     try:
         with xr.open_dataset(path, engine="h5netcdf") as file:
-            found = {name: file[name].values for name in dims if name in file.variables}
+            variables = {name: file[name].values for name in dims if name in file.variables}
     except (OSError, ValueError) as error:
         raise RomError(
             f"cannot be read as NetCDF 4 ({str(error).splitlines()[0]})", file=path
         ) from None
-    if missing := [name for name in dims if name not in (*found, *OPTIONAL)]:
+    if missing := [name for name in dims if name not in (*variables, *OPTIONAL)]:
         raise RomError(f"lacks {', '.join(missing)}: {PAGE} says what each is", file=path)
-    for name in (name for name in found if name not in ("directions", "power")):
-        values, dimensions = found[name], len(dims[name])
+    for name in (name for name in variables if name not in ("directions", "power")):
+        values, dimensions = variables[name], len(dims[name])
         if values.ndim != dimensions or values.dtype.kind not in "iuf":
             raise RomError(
                 f"{values.ndim} dimensions of type {values.dtype}, needs {dimensions} of real "
@@ -145,21 +145,23 @@ def _values(path: str | Path) -> dict[str, Any]:
                 file=path,
                 key=name,
             )
-    return found
+    return variables
 
 
-def _rom(found: dict[str, Any], blade: str, mesh: str) -> Rom:
+def _rom(variables: dict[str, Any], blade: str, mesh: str) -> Rom:
     """The model of the values in a file, with the settings by which a coarser one is made."""
     arrays = ("M", "K", "xi", "points", "camber", "growth", "speeds")
     values: dict[str, Any] = {
         "points": np.empty((0, 3)),
-        **{name: np.asarray(found[name], float) for name in arrays if name in found},
-        **{name: float(found.get(name, np.nan)) for name in ("Omega_m", "span", "f1")},
+        **{name: np.asarray(variables[name], float) for name in arrays if name in variables},
+        **{name: float(variables.get(name, np.nan)) for name in ("Omega_m", "span", "f1")},
     }
-    directions = tuple(map(str, np.atleast_1d(found["directions"])))
-    own = len(values["M"]) - len(directions) * len(values["xi"])  # besides those of the interface
+    directions = tuple(map(str, np.atleast_1d(variables["directions"])))
+    fixed_modes = len(values["M"]) - len(directions) * len(
+        values["xi"]
+    )  # besides those of the interface
     basis = EnrichedBasis(
-        natural_modes=min(max(own, 1), 100), speeds=min(max(len(values["K"]), 3), 9)
+        natural_modes=min(max(fixed_modes, 1), 100), speeds=min(max(len(values["K"]), 3), 9)
     )
     settings = {"reduced_model": mesh, "basis": settings_of_basis(basis)}
     provenance = Provenance(blade, mesh, settings, code_hash(*CODE))
@@ -217,8 +219,8 @@ def _shape_faults(rom: Rom, power: NDArray) -> list[str]:
 def _matrix_faults(rom: Rom) -> Iterator[str]:
     """Faults of M and K; only the first can be relied on."""
     for name, A in (("M", rom.M), *((f"K, power {2 * p}", K) for p, K in enumerate(rom.K))):
-        if (apart := abs(A - A.T).max()) > SYMMETRIC * abs(A).max():
-            yield f"{name}: not symmetric, by {apart / abs(A).max():.2g} of its largest entry"
+        if (asymmetry := abs(A - A.T).max()) > SYMMETRIC * abs(A).max():
+            yield f"{name}: not symmetric, by {asymmetry / abs(A).max():.2g} of its largest entry"
     least, *_, largest = np.linalg.eigvalsh(rom.M)
     if not least > DEFINITE * largest:
         yield (
@@ -282,5 +284,5 @@ def _compliances(rom: Rom) -> Iterator[str]:
 def _growth(rom: Rom) -> str:
     if not rom.growth.size:
         return "no growth with speed: scenes with `clearance: {at: rest}` are refused"
-    at = 1e3 * rom.growth_at(rom.xi, rom.Omega_m)
-    return f"growth of the tip at Omega_m: {at.min():.4g} to {at.max():.4g} mm"
+    growth = 1e3 * rom.growth_at(rom.xi, rom.Omega_m)
+    return f"growth of the tip at Omega_m: {growth.min():.4g} to {growth.max():.4g} mm"

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem.cholesky import Cholesky
-from fem.matrices import CODE, Constants, State
+from fem.matrices import CODE, Constants, Prestressed
 from geometry.hats import hat_nodes, hats, middles
 from geometry.project import Provenance
 from geometry.stored import Stored, frozen, stored
@@ -37,11 +37,16 @@ class FullModel(Stored):
         """With the results of ``other``, at further speeds."""
         order = np.argsort(np.concatenate([self.speeds, other.speeds]))
         names = "speeds", "omega", "residuals", "compliance"
-        both = {name: np.concatenate([getattr(of, name) for of in (self, other)]) for name in names}
+        both = {
+            name: np.concatenate([getattr(model, name) for model in (self, other)])
+            for name in names
+        }
         return replace(self, **{name: values[order] for name, values in both.items()})
 
 
-def solve(fom: Constants, states: Iterable[State], cholesky: Cholesky | None = None) -> FullModel:
+def solve(
+    fom: Constants, states: Iterable[Prestressed], cholesky: Cholesky | None = None
+) -> FullModel:
     """First modes, and compliance of the interface, at every state.
 
     Parameters

@@ -39,9 +39,9 @@ def reduce(
     names = direction_names(directions)
     Omega_m = fom.top_speed
     wanted = basis_speeds(basis, Omega_m)
-    apart = abs(wanted[:, None] - fom.speeds).min(axis=1).max()
+    nearest = abs(wanted[:, None] - fom.speeds).min(axis=1).max()
     further = isinstance(basis, EnrichedBasis) or len(fom.speeds) == len(wanted)
-    if not (fom.given or (further and apart <= 1e-12 * Omega_m)):
+    if not (fom.given or (further and nearest <= 1e-12 * Omega_m)):
         raise ValueError(f"the basis needs the speeds {wanted}, not {fom.speeds}")
     T = _basis(fom, basis, fom.rows(len(names)), say)
     # Eq. (1) projected by Eq. (5)

@@ -27,14 +27,14 @@ def places_between(x: NDArray[np.float64]) -> NDArray[np.float64]:
 
     There a polynomial through them errs most.
     """
-    at = np.linspace(0, 1, PLACES)
-    within = [at[(start < at) & (at < end)] for start, end in pairwise(x)]
+    x_at = np.linspace(0, 1, PLACES)
+    within = [x_at[(start < x_at) & (x_at < end)] for start, end in pairwise(x)]
     return np.array([places[node_polynomial(x, places).argmax()] for places in within])
 
 
-def node_polynomial(x: NDArray[np.float64], at: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Product w of the distances to the ``x`` (n,), at each of ``at``."""
-    return abs(np.atleast_1d(at)[:, None] - x).prod(axis=1)
+def node_polynomial(x: NDArray[np.float64], x_at: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Product w of the distances to the ``x`` (n,), at each of ``x_at``."""
+    return abs(np.atleast_1d(x_at)[:, None] - x).prod(axis=1)
 
 
 def check_speeds(basis: ArrayLike) -> NDArray[np.float64]:

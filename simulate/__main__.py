@@ -62,7 +62,7 @@ def _run(options: argparse.Namespace) -> None:
     require_writable(output)
     scene = Scene.load(options.scene)
     rom = load_model(options.rom, scene.blade)
-    _require_now(rom, Path(options.rom), scene, Path(options.scene))
+    _require_current(rom, Path(options.rom), scene, Path(options.scene))
     if options.row is not None:
         scene = Design.of(scene, Path(options.scene)).require_row(options.row)
     if scene.design:
@@ -85,7 +85,7 @@ def _write_tables(design: Design, rom: Rom, options: argparse.Namespace) -> None
         write_or_keep(partial(save_table, table), output.with_name(f"{output.stem}-{name}.nc"))
 
 
-def _require_now(rom: Rom, path: Path, scene: Scene, scene_path: Path) -> None:
+def _require_current(rom: Rom, path: Path, scene: Scene, scene_path: Path) -> None:
     """Refuse a model made before its blade's file, or the mesh in its folder, was changed.
 
     Raises

@@ -32,8 +32,8 @@ class Runs:
     def __getattr__(self, name: str) -> xr.DataArray:
         """A variable or coordinate of the dataset."""
         if name.startswith("_") or name not in self.dataset.variables:
-            known = ", ".join(map(str, self.dataset.variables))
-            raise AttributeError(f"{name}: no variable of the sweep; it has {known}")
+            variables = ", ".join(map(str, self.dataset.variables))
+            raise AttributeError(f"{name}: no variable of the sweep; it has {variables}")
         return self.dataset[name]
 
     def __repr__(self) -> str:
@@ -46,9 +46,9 @@ class Runs:
                 ", ".join(f"{status}: {count}" for status, count in ends.items()),
                 dataset.checks(self.dataset),
                 *(
-                    f"EO {k}: peak at {speeds[of.index]:.0f} rpm, {of.over_crossing:.3f} times the "
-                    f"linear crossing, {of.amplitude:.3g} gaps"
-                    for k, of in self.peaks().items()
+                    f"EO {k}: peak at {speeds[peak.index]:.0f} rpm, {peak.over_crossing:.3f} times "
+                    f"the linear crossing, {peak.amplitude:.3g} gaps"
+                    for k, peak in self.peaks().items()
                 ),
             ]
         )

@@ -136,7 +136,9 @@ class Subject(NamedTuple):
             other = other._replace(rom=lambda _: model, along=along)
         check_scene(other.scene(self.scene), other.rom(self.rom))
         cases = (case_of(self.runs, self.scene, self.rom, peak) for peak in self.peaks)
-        return [at_peak(case.beside(other), p.k) for case, p in zip(cases, self.peaks, strict=True)]
+        return [
+            at_peak(case.neighbour(other), p.k) for case, p in zip(cases, self.peaks, strict=True)
+        ]
 
 
 def expected(subject: Subject) -> float:

@@ -43,23 +43,23 @@ class Inner(CPUDispatcher):
         return self.outer(*arguments)
 
 
-def decorator(of: type[CPUDispatcher], **options: Any) -> Callable[[Callable], Callable]:
+def decorator(dispatcher: type[CPUDispatcher], **options: Any) -> Callable[[Callable], Callable]:
     """Decorator that compiles with ``options``; NUMBA_DISABLE_JIT=1: plain Python."""
     if numba.config.DISABLE_JIT:  # pyright: ignore[reportPrivateImportUsage, reportAttributeAccessIssue]
         return lambda function: function
-    return partial(of, targetoptions=OPTIONS | options)
+    return partial(dispatcher, targetoptions=OPTIONS | options)
 
 
 compiled = decorator(Inner, forceinline=True, **WRAPPERS)
 compiled_sums = decorator(Inner, forceinline=True, fastmath=SUM_IN_ANY_ORDER, **WRAPPERS)
 # not inlined: a function that runs long enough to have the registers for itself
-compiled_apart = decorator(Inner, fastmath=SUM_IN_ANY_ORDER, **WRAPPERS)
+compiled_not_inlined = decorator(Inner, fastmath=SUM_IN_ANY_ORDER, **WRAPPERS)
 compiled_kernel = decorator(CPUDispatcher)  # called from Python
 
 
-def records(shape: int | tuple[int, ...], of: np.dtype) -> np.recarray:
+def records(shape: int | tuple[int, ...], dtype: np.dtype) -> np.recarray:
     """Records of zeros: the values of a strip or a rod lie next to each other in memory."""
-    return np.zeros(shape, of).view(np.recarray)
+    return np.zeros(shape, dtype).view(np.recarray)
 
 
 def for_types_of(function: Any, *arguments: Any) -> Callable:
@@ -70,11 +70,11 @@ def for_types_of(function: Any, *arguments: Any) -> Callable:
     """
     if not isinstance(function, CPUDispatcher):  # plain Python
         return function
-    known = function, layout(arguments)
-    if known not in _KERNELS:
+    key = function, layout(arguments)
+    if key not in _KERNELS:
         types = tuple(numba.typeof(argument) for argument in arguments)
-        _KERNELS[known] = kernel(function, types)
-    return _KERNELS[known]
+        _KERNELS[key] = kernel(function, types)
+    return _KERNELS[key]
 
 
 def layout(value: Any) -> Any:

@@ -29,7 +29,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from simulate.contact.compiled import compiled, compiled_sums, records
-from simulate.contact.rods import bearing
+from simulate.contact.rods import contact_force
 
 # Of unsigned indices: signed ones may count from the end of an array, which takes a branch each
 # and keeps loops from being vectors.
@@ -104,7 +104,7 @@ def solve_strip(strips, covered, i, z, c, top, F):
     low, end, last = -np.inf, min(z, top), np.inf
     high, w = end, min(z - c * F, end)
     for _ in range(CUTS):
-        force, _, slope = bearing(strips, covered, i, w)
+        force, _, slope = contact_force(strips, covered, i, w)
         error = w + c * force - z
         step = error / (1 + c * slope)
         if w == top and error < 0.0:  # more than the rods bear: the casing does, Eq. (8)
@@ -237,8 +237,8 @@ def slope_along(solver, n):
     """Slope of the energy along Newton's step, N m."""
     slope = 0.0
     for p in range(n):
-        at = solver.unknowns[p]
-        slope -= at.shift * at.residual
+        unknown = solver.unknowns[p]
+        slope -= unknown.shift * unknown.residual
     return slope
 
 
@@ -249,24 +249,24 @@ def descend(strips, covered, solver, n, share):
     newton(solver, n, share)
     change = solver.change
     for p in range(n):
-        own = share * solver.C[p, p] * change[p]
-        solver.unknowns[p].shift = row_sum(solver.C, p, change, n) - own
+        diagonal = share * solver.C[p, p] * change[p]
+        solver.unknowns[p].shift = row_sum(solver.C, p, change, n) - diagonal
     low, high, slope_low, slope_high = 0.0, 1.0, slope_along(solver, n), 0.0
-    at = way = 1.0
+    length = way = 1.0
     while way != 0.0:
         for p in range(n):
             solver.F[p] += way * change[p]
         residual(strips, covered, solver, n, share)
         slope = slope_along(solver, n)
-        if slope <= 0.0 and (at == 1.0 or slope >= FLAT_ENOUGH * slope_low):
+        if slope <= 0.0 and (length == 1.0 or slope >= FLAT_ENOUGH * slope_low):
             return
         if slope > 0.0:
-            high, slope_high = at, slope
+            high, slope_high = length, slope
         else:
-            low, slope_low = at, slope
+            low, slope_low = length, slope
         cut = slope_low / (slope_low - slope_high)
-        last, at = at, low + (high - low) * min(max(cut, 0.1), 0.9)
-        way = at - last
+        last, length = length, low + (high - low) * min(max(cut, 0.1), 0.9)
+        way = length - last
 
 
 @compiled
@@ -301,8 +301,8 @@ def row_sums(C, p, F, slope, n):
 def places_under_forces(solver, n):
     """Where the strips are under the forces F: w = v - C F."""
     for p in range(n):
-        at = solver.unknowns[p]
-        at.w = at.v - row_sum(solver.C, p, solver.F, n)
+        unknown = solver.unknowns[p]
+        unknown.w = unknown.v - row_sum(solver.C, p, solver.F, n)
 
 
 @compiled
@@ -311,13 +311,13 @@ def misplaced(strips, covered, solver, n):
     worst, blur = 0.0, ULP * strips.thickness
     F, slope, change = solver.F, solver.slope, solver.change
     for p in range(n):
-        at = solver.unknowns[p]
-        F[p], _, slope[p] = bearing(strips, covered, at.strip, at.w)
+        unknown = solver.unknowns[p]
+        F[p], _, slope[p] = contact_force(strips, covered, unknown.strip, unknown.w)
     for p in range(n):
-        at = solver.unknowns[p]
+        unknown = solver.unknowns[p]
         moved, terms, stiff = row_sums(solver.C, p, F, slope, n)
-        change[p] = at.v - at.w - moved
-        allowed = 10 * TOLERANCE * (abs(at.v) + terms) + blur * stiff
+        change[p] = unknown.v - unknown.w - moved
+        allowed = 10 * TOLERANCE * (abs(unknown.v) + terms) + blur * stiff
         worst = max(worst, abs(change[p]) - allowed)
     return worst
 

@@ -97,34 +97,34 @@ def key(function: Dispatcher, types: tuple[Type, ...]) -> str:
     text = "\n".join(
         [
             *map(str, VERSIONS + function.targetctx.codegen().magic_tuple()),  # pyright: ignore[reportAttributeAccessIssue]
-            *(_of_type(of, seen) for of in types),
-            _of_value(function, seen),
+            *(_type_text(of, seen) for of in types),
+            _value_text(function, seen),
         ]
     )
     return hashlib.sha256(text.encode()).hexdigest()[:32]
 
 
-def _of_type(of: Type, seen: set[FunctionType]) -> str:
+def _type_text(numba_type: Type, seen: set[FunctionType]) -> str:
     """Text of a type, without the addresses in memory in its name."""
-    if isinstance(of, DispatcherType):
-        return _of_value(of.dispatcher, seen)
-    if isinstance(of, BaseTuple) and isinstance(of, Iterable):
-        items = ", ".join(_of_type(item, seen) for item in of)
-        return f"({', '.join(getattr(of, 'fields', ()))}: {items})"
-    return re.sub(" at 0x[0-9a-f]+", "", str(of))
+    if isinstance(numba_type, DispatcherType):
+        return _value_text(numba_type.dispatcher, seen)
+    if isinstance(numba_type, BaseTuple) and isinstance(numba_type, Iterable):
+        items = ", ".join(_type_text(item, seen) for item in numba_type)
+        return f"({', '.join(getattr(numba_type, 'fields', ()))}: {items})"
+    return re.sub(" at 0x[0-9a-f]+", "", str(numba_type))
 
 
-def _of_value(value: Any, seen: set[FunctionType]) -> str:
+def _value_text(value: Any, seen: set[FunctionType]) -> str:
     """Text of a value that a function reads: number, string, array, tuple, module or function."""
     if isinstance(value, Dispatcher):
         options = tuple(sorted(value.targetoptions.items()))
-        return f"{_of_value(options, seen)} {_of_value(value.py_func, seen)}"
+        return f"{_value_text(options, seen)} {_value_text(value.py_func, seen)}"
     if isinstance(value, FunctionType):
         return "\n".join(_of_function(value, seen))
     if isinstance(value, set):
         value = tuple(sorted(value))
     if isinstance(value, tuple):
-        return f"({', '.join(_of_value(item, seen) for item in value)})"
+        return f"({', '.join(_value_text(item, seen) for item in value)})"
     if isinstance(value, np.ndarray | np.generic):
         array = np.asarray(value)
         return f"{array.dtype.descr} {array.shape} {array.tobytes().hex()}"
@@ -151,8 +151,8 @@ def _of_function(function: FunctionType, seen: set[FunctionType]) -> Iterator[st
     yield repr((code.co_code, code.co_consts, code.co_names, code.co_varnames))
     names = inspect.getclosurevars(function)
     for name, value in sorted({**names.globals, **names.nonlocals}.items()):
-        yield f"{name} = {_of_value(value, seen)}"
-    yield _of_value(function.__defaults__, seen)
+        yield f"{name} = {_value_text(value, seen)}"
+    yield _value_text(function.__defaults__, seen)
 
 
 def _loaded(function: Dispatcher, path: Path) -> Callable | None:
@@ -199,14 +199,14 @@ class _LinkOnly(JITCodeLibrary):
 @contextmanager
 def linked_into(kernel: Dispatcher) -> Iterator[None]:
     """Compile all but ``kernel`` itself, in the block, to be linked only."""
-    if not all(hasattr(of, name) for of, name in PRIVATE):
+    if not all(hasattr(owner, name) for owner, name in PRIVATE):
         yield
         return
     codegen = kernel.targetctx.codegen()  # pyright: ignore[reportAttributeAccessIssue]  of a CPU
 
-    def library(of: JITCPUCodegen, name: str) -> JITCodeLibrary:
+    def library(cpu: JITCPUCodegen, name: str) -> JITCodeLibrary:
         """Library of a function: whole for the kernel alone."""
-        return (JITCodeLibrary if name == kernel.py_func.__qualname__ else _LinkOnly)(of, name)
+        return (JITCodeLibrary if name == kernel.py_func.__qualname__ else _LinkOnly)(cpu, name)
 
     def set_env(name: str, env: object) -> None:
         """Set the environment of a function whose module the process has."""

@@ -48,63 +48,65 @@ def fault(law: Law) -> str | None:
             sigma, after, tangent = map(float, law.stress(law.parameters, eps, last.after))
         except Exception as error:
             return f"stress: {error}: {THREE}, {where}"
-        now = Point(eps, last.after, sigma, after, tangent)
+        point = Point(eps, last.after, sigma, after, tangent)
         taken += (last.sigma + sigma) / 2 * (eps - last.eps)
         modulus = modulus or law.modulus  # of a law that returns three numbers
         try:
-            message = next(_faults(law, modulus, last, now, taken), None)
+            message = next(_faults(law, modulus, last, point, taken), None)
         except (TypeError, ValueError) as error:
             return f"{error}: stress returns three numbers, plastic_work one, {where}"
         if message:
             return f"{message}, {where}"
-        last = now
+        last = point
     return None
 
 
-def _faults(law: Law, modulus: float, last: Point, now: Point, taken: float) -> Iterator[str]:
+def _faults(law: Law, modulus: float, last: Point, point: Point, taken: float) -> Iterator[str]:
     """Faults at a state, after ``last`` on the path; ``taken`` J/m3 is the work of the stress."""
-    if not all(map(isfinite, now)):
-        yield f"stress returns {now[2:]}, not finite"
-    if now.sigma < 0.0:
-        yield f"stress is {now.sigma:.3g} Pa, and the liner bears no tension"
-    if now.after > now.eps * (1 + ROUND_OFF):
-        yield f"plastic strain is {now.after:.3g}, more than the total strain"
-    if now.sigma < last.sigma * (1 - ROUND_OFF):
-        yield f"stress falls from {last.sigma:.3g} to {now.sigma:.3g} Pa while the strain grows"
-    yield from _unloading_faults(law, now)
-    yield from _tangent_faults(law, modulus, now)
-    elastic = now.eps - now.after
-    if now.after > 0 and abs(now.sigma - modulus * elastic) > KINK * now.sigma:
-        unloading = now.sigma / elastic
+    if not all(map(isfinite, point)):
+        yield f"stress returns {point[2:]}, not finite"
+    if point.sigma < 0.0:
+        yield f"stress is {point.sigma:.3g} Pa, and the liner bears no tension"
+    if point.after > point.eps * (1 + ROUND_OFF):
+        yield f"plastic strain is {point.after:.3g}, more than the total strain"
+    if point.sigma < last.sigma * (1 - ROUND_OFF):
+        yield f"stress falls from {last.sigma:.3g} to {point.sigma:.3g} Pa while the strain grows"
+    yield from _unloading_faults(law, point)
+    yield from _tangent_faults(law, modulus, point)
+    elastic = point.eps - point.after
+    if point.after > 0 and abs(point.sigma - modulus * elastic) > KINK * point.sigma:
+        unloading = point.sigma / elastic
         yield f"unloads with {unloading:.4g} Pa, not with the modulus of {modulus:.4g} Pa"
-    stored = now.sigma * (now.eps - now.after) / 2
-    work = law.plastic_work(law.parameters, 0.0, now.after)
+    stored = point.sigma * (point.eps - point.after) / 2
+    work = law.plastic_work(law.parameters, 0.0, point.after)
     if abs(stored + work - taken) > WORK * taken:
         yield f"plastic_work is {work:.3g} J/m3, the stress has done {taken - stored:.3g} J/m3"
 
 
-def _unloading_faults(law: Law, now: Point) -> Iterator[str]:
+def _unloading_faults(law: Law, point: Point) -> Iterator[str]:
     """Unloading is linear, down to the plastic strain; below it the gap is open."""
-    sigma, after, _ = law.stress(law.parameters, (now.eps + now.after) / 2, now.after)
-    if abs(sigma - now.sigma / 2) > STEP * now.sigma:
-        yield f"unloaded by half, stress is {sigma:.6g} of {now.sigma:.6g} Pa: not linear"
-    if abs(after - now.after) > ROUND_OFF * now.after:
-        yield f"unloaded by half, plastic strain changes from {now.after:.6g} to {after:.6g}"
-    sigma = law.stress(law.parameters, now.after / 2, now.after)[0] if now.after > 0.0 else 0.0
+    sigma, after, _ = law.stress(law.parameters, (point.eps + point.after) / 2, point.after)
+    if abs(sigma - point.sigma / 2) > STEP * point.sigma:
+        yield f"unloaded by half, stress is {sigma:.6g} of {point.sigma:.6g} Pa: not linear"
+    if abs(after - point.after) > ROUND_OFF * point.after:
+        yield f"unloaded by half, plastic strain changes from {point.after:.6g} to {after:.6g}"
+    sigma = (
+        law.stress(law.parameters, point.after / 2, point.after)[0] if point.after > 0.0 else 0.0
+    )
     if sigma != 0.0:
         yield f"stress is {sigma:.3g} Pa at half of the plastic strain, where the gap is open"
 
 
-def _tangent_faults(law: Law, modulus: float, now: Point) -> Iterator[str]:
+def _tangent_faults(law: Law, modulus: float, point: Point) -> Iterator[str]:
     """The tangent is the derivative of the stress, where it has one, and the modulus bounds it."""
-    h = STEP * now.eps
-    below, above = (law.stress(law.parameters, now.eps + d, now.before)[0] for d in (-h, h))
-    left, right = (now.sigma - below) / h, (above - now.sigma) / h
-    size = max(abs(left), abs(right), now.sigma / now.eps)
-    if abs(left - right) < KINK * size and abs(now.tangent - left) > TANGENT * size:
-        yield f"tangent is {now.tangent:.3g} Pa, the derivative of the stress {left:.3g} Pa"
-    if now.tangent > modulus * (1 + ROUND_OFF):
-        yield f"tangent is {now.tangent:.3g} Pa, above the modulus of {modulus:.3g} Pa"
+    h = STEP * point.eps
+    below, above = (law.stress(law.parameters, point.eps + d, point.before)[0] for d in (-h, h))
+    left, right = (point.sigma - below) / h, (above - point.sigma) / h
+    size = max(abs(left), abs(right), point.sigma / point.eps)
+    if abs(left - right) < KINK * size and abs(point.tangent - left) > TANGENT * size:
+        yield f"tangent is {point.tangent:.3g} Pa, the derivative of the stress {left:.3g} Pa"
+    if point.tangent > modulus * (1 + ROUND_OFF):
+        yield f"tangent is {point.tangent:.3g} Pa, above the modulus of {modulus:.3g} Pa"
 
 
 def compile_fault(law: Law, error: Exception) -> str:

@@ -73,7 +73,7 @@ def psi(law, eps, eps_p):
 
 
 @compiled
-def book_left(strips, covered, i, j, passed, a, energies):
+def book_released(strips, covered, i, j, passed, a, energies):
     """Book the energy of rods that the tip leaves, its window on strip ``i`` going to rod ``j``.
 
     Rods not displaced by the casing since the last step keep their elastic energy. Returns the
@@ -86,21 +86,21 @@ def book_left(strips, covered, i, j, passed, a, energies):
     ahead = (j - strip.at) % nu
     if 2 * ahead > nu:  # the tip swings back faster than the blade turns
         ahead -= nu
-    left = gained = 0.0
+    released = gained = 0.0
     for k in range(strip.low, strip.high):  # no other stores energy
         change = covered_part(strips, k - ahead, passed) - rods[i, k].part
-        left += max(-change, 0.0) * rods[i, k].stored
+        released += max(-change, 0.0) * rods[i, k].stored
         gained += max(change, 0.0) * rods[i, k].stored
     volume, fresh = strips.area[i] * strips.thickness, 0
     # under a rounded tip, or while the casing grows, the penetration of every rod changes; where
     # the window goes all around, the wear of its last rod is also that of its first
     if strips.tip.half == 0.0 and a == strip.ramp and ahead >= 0 and last < nu:
-        met = last + 1
-        while met > 0 and rods[i, met - 1].part == 0.0:
-            met -= 1
-        fresh = max(met - ahead, 0)
+        covered_end = last + 1
+        while covered_end > 0 and rods[i, covered_end - 1].part == 0.0:
+            covered_end -= 1
+        fresh = max(covered_end - ahead, 0)
     else:
-        gained = left - strip.stored
-    energies[RELEASED] += left * volume
+        gained = released - strip.stored
+    energies[RELEASED] += released * volume
     energies[CASING] += gained * volume
     return fresh

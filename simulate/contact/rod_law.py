@@ -47,18 +47,18 @@ def rod_law(law: type[Law], parameters: Any, by_pointers: bool = False) -> RodLa
     # plain Python needs no pointers
     if not by_pointers or numba.config.DISABLE_JIT:  # pyright: ignore[reportPrivateImportUsage, reportAttributeAccessIssue]
         return RodLaw(parameters, _compiled(law.stress), _compiled(law.plastic_work))
-    values, of = np.array(parameters, float), type(parameters)
-    work = _pointer(law.plastic_work, of, float64)
-    return RodLaw(values, _pointer(law.stress, of, UniTuple(float64, 3)), work)
+    values, named = np.array(parameters, float), type(parameters)
+    work = _pointer(law.plastic_work, named, float64)
+    return RodLaw(values, _pointer(law.stress, named, UniTuple(float64, 3)), work)
 
 
 @cache
-def _pointer(function: Callable, of: type, returned: Type) -> Any:
-    """Pointer to a ``function`` of parameters in an array; ``of``: their named tuple."""
-    formula, count = compiled(function), len(of._fields)
+def _pointer(function: Callable, named: type, returned: Type) -> Any:
+    """Pointer to a ``function`` of parameters in an array; ``named``: their named tuple."""
+    formula, count = compiled(function), len(named._fields)
 
     @numba.cfunc(returned(*OF_ARRAY), error_model="numpy", _nrt=False)  # pyright: ignore[reportCallIssue]
     def of_array(parameters, one, other):
-        return formula(of(*to_fixed_tuple(parameters, count)), one, other)  # pyright: ignore[reportCallIssue]
+        return formula(named(*to_fixed_tuple(parameters, count)), one, other)  # pyright: ignore[reportCallIssue]
 
     return of_array

@@ -28,7 +28,14 @@ from typing import NamedTuple
 import numpy as np
 
 from simulate.contact.compiled import FIRST, compiled, records
-from simulate.contact.ledger import CASING, PLASTIC, book_left, elastic_energy, plastic_work, psi
+from simulate.contact.ledger import (
+    CASING,
+    PLASTIC,
+    book_released,
+    elastic_energy,
+    plastic_work,
+    psi,
+)
 from simulate.contact.strips import (
     Strips,
     below,
@@ -79,7 +86,7 @@ class Covered(NamedTuple):
 def nothing_covered(strips: Strips) -> Covered:
     """A tip that has met no rod yet."""
     n = len(strips.g0)
-    window = strips.rods_covered + 1 + 2 * strips.beside
+    window = strips.rods_covered + 1 + 2 * strips.partly_covered
     return Covered(records((n, window), ROD), records(n, STRIP))
 
 
@@ -108,12 +115,12 @@ def cover(strips, covered, eps_p, i, step, w_before, w, u_t, u_t_before, moves, 
     j = int(whole) % nu  # Eq. (6): the closest rods are those along the radius
     passed = x - whole
     strip = covered.strips[i]
-    fresh = book_left(strips, covered, i, j, passed, step.a, energies)
+    fresh = book_released(strips, covered, i, j, passed, step.a, energies)
     strip.at, strip.passed, strip.ramp, strip.slid, strip.moved = j, passed, step.a, slid, half
     strip.reach = max(w_before, w) + SPARE * strips.g0[i]
     strip.low, strip.high = rods_reached(strips, strip, i, covered.rods.shape[1])
-    brought = fill(strips, covered, eps_p, i, strip.low, strip.high, fresh, w_before, w, moves)
-    energies[CASING] += brought * strips.area[i] * strips.thickness
+    supplied = fill(strips, covered, eps_p, i, strip.low, strip.high, fresh, w_before, w, moves)
+    energies[CASING] += supplied * strips.area[i] * strips.thickness
 
 
 @compiled
@@ -155,7 +162,7 @@ def fill(strips, covered, eps_p, i, low, high, fresh, w_before, w, moves):
     Those from ``fresh`` on the casing has moved; others as of ``cover``.
     """
     strip, nu, profile = covered.strips[i], strips.d.size, strips.tip.half > 0.0
-    passed, half, g0, brought = strip.passed, strip.moved, strips.g0[i], 0.0
+    passed, half, g0, supplied = strip.passed, strip.moved, strips.g0[i], 0.0
     j = (strip.at + low) % nu
     for k in range(low, high):
         rod = covered.rods[i, k]
@@ -172,9 +179,9 @@ def fill(strips, covered, eps_p, i, low, high, fresh, w_before, w, moves):
             # the closest part of the tip has passed the rod, and has worn it before it bears
             w_from = w_before if moves else w
             rod.eps_p = worn_to(strips, covered, i, k, w_from, w, 0.5, rod.eps_p, 0.0)
-        brought += bring(strips, rod, eps_p[i, j], w_before, moves, k >= fresh)
+        supplied += bring(strips, rod, eps_p[i, j], w_before, moves, k >= fresh)
         j = j + 1 if j + 1 < nu else 0
-    return brought
+    return supplied
 
 
 @compiled
@@ -227,7 +234,7 @@ def mean_stress(law, rod, eps, w_end):
 
 
 @compiled
-def bears(covered, i, w):
+def in_contact(covered, i, w):
     """Whether any rod of strip ``i`` may bear in the step, at ``w`` (m) at its end."""
     strip = covered.strips[i]
     for k in range(np.uint64(strip.low), np.uint64(strip.high)):
@@ -238,7 +245,7 @@ def bears(covered, i, w):
 
 
 @compiled
-def bearing(strips, covered, i, w):
+def contact_force(strips, covered, i, w):
     """Force of strip i's rods at ``w`` (m): radial N, tangential N, and its slope, N/m."""
     t_N, t_T, stiffness, per_l = 0.0, 0.0, 0.0, 1 / strips.thickness
     strip = covered.strips[i]
@@ -262,8 +269,8 @@ def deepest_reach(strips, covered, i, k, w_from, w, first, last):
     that travels goes on its way, too, halfway to the place of the rod's ``at_rest``.
     """
     strip, tip = covered.strips[i], strips.tip
-    came = strips.waves.came(strips, strip.at, k)
-    way, at_rest = w - w_from + came, covered.rods[i, k].at_rest - came / 2
+    approach = strips.waves.approach(strips, strip.at, k)
+    way, at_rest = w - w_from + approach, covered.rods[i, k].at_rest - approach / 2
     if tip.half == 0.0:
         return at_rest + w_from + max(first * way, last * way)
     slid = strips.pitch[i] * strip.slid
@@ -284,8 +291,8 @@ def worn_to(strips, covered, i, k, w_from, w, share, eps_p, yielded):
     """
     law, strip = strips.law, covered.strips[i]
     first, last = covered_share(strips, k, strip.passed, strip.slid)
-    came = strips.waves.came(strips, strip.at, k)
-    if strips.tip.half == 0.0 and last - first == 1.0 and came == 0.0:
+    approach = strips.waves.approach(strips, strip.at, k)
+    if strips.tip.half == 0.0 and last - first == 1.0 and approach == 0.0:
         return yielded
     if min(last, share) > first:
         eps = deepest_reach(strips, covered, i, k, w_from, w, first, min(last, share))
@@ -309,7 +316,7 @@ def press(strips, covered, eps_p, i, w, w_from, energies):
     strip, law, nu = covered.strips[i], strips.law, strips.d.size
     j, volume = (strip.at + strip.low) % nu, strips.area[i] * strips.thickness
     per_l = 1 / strips.thickness
-    t_N = t_T = deepest = stored = worn = brought = 0.0
+    t_N = t_T = deepest = stored = worn = supplied = 0.0
     first = eps_p[i, j]  # of a footprint all around, which ends on the rod on which it begins
     for k in range(strip.low, strip.high):
         rod, before = covered.rods[i, k], eps_p[i, j] if k < nu else first
@@ -328,13 +335,13 @@ def press(strips, covered, eps_p, i, w, w_from, energies):
         if kept != after or k == nu:
             received = rod.stored + plastic_work(law, before, after)
             rod.stored = psi(law, eps, kept) if part > 0.0 and eps > 0.0 else 0.0
-            brought += part * (rod.stored + wear - received)
+            supplied += part * (rod.stored + wear - received)
         eps_p[i, j] = kept  # Eq. (16)
         worn += wear
-        brought += (1 - part) * wear  # it wears whole: the casing pays for the uncovered part
+        supplied += (1 - part) * wear  # it wears whole: the casing pays for the uncovered part
         stored += part * rod.stored
         j = j + 1 if j + 1 < nu else 0
     strip.stored = stored
     energies[PLASTIC] += worn * volume
-    energies[CASING] += brought * volume
+    energies[CASING] += supplied * volume
     return t_N * strips.area[i], t_T * strips.area[i], deepest  # A_i of Eq. (17)

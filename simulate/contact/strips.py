@@ -41,7 +41,7 @@ class Strips(NamedTuple):
     advance: float  # rods that the blade passes in a step
     length: float  # of a footprint, rods
     rods_covered: int  # the same, rounded up
-    beside: int  # rods on either side of it whose centre it covers for a part of the step
+    partly_covered: int  # rods on either side of it whose centre it covers for a part of the step
     placed: float  # share of a step after which its rods are those under the tip
     w_end: NDArray[np.float64]  # (strips,), weight of the end of the step in its force
     area: NDArray[np.float64]  # (strips,), m2, A_j of a rod of each strip
@@ -102,7 +102,7 @@ def offset(strips, k, passed):
 
     ``passed``: fraction of a pitch that the blade is past the window's first rod.
     """
-    return k - passed - strips.beside - (strips.rods_covered - 1) / 2
+    return k - passed - strips.partly_covered - (strips.rods_covered - 1) / 2
 
 
 @compiled

@@ -18,7 +18,9 @@ from numpy.typing import NDArray
 from simulate.contact.compiled import compiled
 
 SPARE_RODS = 4  # on either side of the window, at which the distortion is set, too
-MIDDLE, END, STEP = range(3)  # rows of ``now``: at the time of the step's rods, at its end, change
+MIDDLE, END, STEP = range(
+    3
+)  # rows of ``phasor``: at the time of the step's rods, at its end, change
 
 
 class Waves(NamedTuple):
@@ -27,7 +29,7 @@ class Waves(NamedTuple):
     begin: Any  # compiled: phases at the start of a revolution
     lower: Any  # compiled: lowers the displacements that meet no rod
     follow: Any  # compiled: sets the distortion of the rods near the tip
-    came: Any  # compiled: how far the casing comes in a step, m
+    approach: Any  # compiled: how far the casing comes in a step, m
     most: float  # m, the sum of all, anywhere, on its way over a step
     fixed: NDArray[np.float64]  # (nu,), m, distortion without them
     cosine: NDArray[np.float64]  # (H, nu), m, A cos n theta
@@ -37,7 +39,7 @@ class Waves(NamedTuple):
     phase: NDArray[np.float64]  # (H,), rad
     turn: NDArray[np.float64]  # (H,), rad, n S h
     at: NDArray[np.float64]  # (H,), rad, n S t - phase at the start of the revolution
-    now: NDArray[np.float64]  # (3, 2, H), cosine and sine of n S t - phase in the step
+    phasor: NDArray[np.float64]  # (3, 2, H), cosine and sine of n S t - phase in the step
     way: NDArray[np.float64]  # (nu,), m, by which the casing comes in the step
 
 
@@ -57,12 +59,12 @@ def stands_in_step(strips, state, step):
 
 
 @compiled
-def does_not_come(strips, at, k):
+def no_approach(strips, at, k):
     """A casing that stands comes by 0 m."""
     return 0.0
 
 
-def met(strips: Any) -> NDArray[np.float64]:
+def distortion_passed(strips: Any) -> NDArray[np.float64]:
     """Distortion (nu,), m, of each rod as the blade passes it in the first revolution; share 1."""
     waves = strips.waves
     if not waves.order.size:
@@ -94,10 +96,10 @@ def lower(strips, a_first, a_last, first, last, motion, now):
     time.
     """
     waves, per_rod, first_t = strips.waves, 2 * np.pi / strips.d.size, motion.u.shape[1] // 2
-    half = (strips.rods_covered + 1) / 2 + strips.beside + SPARE_RODS  # rods
+    half = (strips.rods_covered + 1) / 2 + strips.partly_covered + SPARE_RODS  # rods
     number = (first + last) / 2
     for i in range(strips.g0.size):
-        rod = strips.first[i] + number * strips.advance + strips.beside
+        rod = strips.first[i] + number * strips.advance + strips.partly_covered
         rod += (strips.rods_covered - 1) / 2
         if strips.tangential:
             rod += motion.u[now, first_t + i] / strips.pitch[i]
@@ -119,11 +121,11 @@ def follow(strips, state, step):
     for h in range(waves.order.size):
         for row, time in ((MIDDLE, step.number - 1 + strips.placed), (END, float(step.number))):
             phase = waves.at[h] + waves.turn[h] * time
-            waves.now[row, 0, h], waves.now[row, 1, h] = np.cos(phase), np.sin(phase)
+            waves.phasor[row, 0, h], waves.phasor[row, 1, h] = np.cos(phase), np.sin(phase)
         # over a step about the time of its rods: 2 sin(turn / 2) times the rate
         half = 2 * np.sin(waves.turn[h] / 2)
-        waves.now[STEP, 0, h] = -half * waves.now[MIDDLE, 1, h]
-        waves.now[STEP, 1, h] = half * waves.now[MIDDLE, 0, h]
+        waves.phasor[STEP, 0, h] = -half * waves.phasor[MIDDLE, 1, h]
+        waves.phasor[STEP, 1, h] = half * waves.phasor[MIDDLE, 0, h]
     for i in range(strips.g0.size):
         state.covered.strips[i].ramp = np.nan  # every rod has moved since the last contact
         x = strips.first[i] + step.number * strips.advance
@@ -140,18 +142,18 @@ def follow(strips, state, step):
 @compiled
 def place(strips, j, a):
     """Set the distortion of rod ``j`` for the step."""
-    waves, now = strips.waves, strips.waves.now
+    waves, phasor = strips.waves, strips.waves.phasor
     d, d_end, way = waves.fixed[j], waves.fixed[j], 0.0
     for h in range(waves.order.size):
         c, s = waves.cosine[h, j], waves.sine[h, j]
-        d += c * now[MIDDLE, 0, h] + s * now[MIDDLE, 1, h]
-        d_end += c * now[END, 0, h] + s * now[END, 1, h]
-        way += c * now[STEP, 0, h] + s * now[STEP, 1, h]
+        d += c * phasor[MIDDLE, 0, h] + s * phasor[MIDDLE, 1, h]
+        d_end += c * phasor[END, 0, h] + s * phasor[END, 1, h]
+        way += c * phasor[STEP, 0, h] + s * phasor[STEP, 1, h]
     strips.d[j], strips.d_end[j], waves.way[j] = d, d_end, a * way
 
 
 @compiled
-def came(strips, at, k):
+def approach(strips, at, k):
     """How far the casing comes in the step at rod ``k`` of the window from rod ``at``, m."""
     return strips.waves.way[(at + k) % strips.d.size]
 
@@ -159,7 +161,7 @@ def came(strips, at, k):
 def waves(
     fixed: NDArray[np.float64],
     harmonics: NDArray[np.float64],
-    functions: tuple[Any, ...] = (begin, lower, follow, came),
+    functions: tuple[Any, ...] = (begin, lower, follow, approach),
 ) -> Waves:
     """Travelling ``harmonics`` (H, 4) over the ``fixed`` distortion (nu,), m.
 
@@ -180,7 +182,7 @@ def waves(
         phase=phase,
         turn=turn,
         at=np.zeros(H),
-        now=np.zeros((3, 2, H)),
+        phasor=np.zeros((3, 2, H)),
         way=np.zeros(len(fixed)),
     )
 
@@ -188,5 +190,5 @@ def waves(
 STANDING = waves(
     np.zeros(1),
     np.zeros((0, 4)),
-    (stands_at_start, stands_below, stands_in_step, does_not_come),
+    (stands_at_start, stands_below, stands_in_step, no_approach),
 )

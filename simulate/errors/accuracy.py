@@ -95,13 +95,13 @@ class Choice(Fineness):
             When it is missing, damaged, or no choice of this version.
         """
         values = read_json(path)
-        known = {field.name for field in fields(cls)} - {"runs"}
-        if not isinstance(values, dict) or values.keys() != known:
+        names = {field.name for field in fields(cls)} - {"runs"}
+        if not isinstance(values, dict) or values.keys() != names:
             raise ProvenanceError(f"is no choice of a pilot; {anew(path)}", file=path)
         return cls(**values)
 
 
-def require_model(accuracy: float, doubt: Doubt) -> None:
+def require_model(accuracy: float, model_error: Doubt) -> None:
     """Refuse an accuracy below the error of the reduced model or of its mesh.
 
     Raises
@@ -113,11 +113,11 @@ def require_model(accuracy: float, doubt: Doubt) -> None:
         "reduced model": "raise basis.natural_modes",
         "mesh": "lower mesh.element_size_mm",
     }
-    for (of, remedy), error in zip(remedies.items(), doubt, strict=True):
+    for (part, remedy), error in zip(remedies.items(), model_error, strict=True):
         if error is not None and not error <= accuracy:
             raise SceneError(
-                f"the relative error of the {of} is {error:.3g}, in frequencies or compliances of "
-                f"the tip; allowed from that value, or {remedy} in the blade's file",
+                f"the relative error of the {part} is {error:.3g}, in frequencies or compliances "
+                f"of the tip; allowed from that value, or {remedy} in the blade's file",
                 key="accuracy",
                 value=accuracy,
                 allowed={"ge": error},
@@ -144,10 +144,10 @@ def pilot(scene: Scene, rom: Rom, check: str | Path, mesh: str | Path | None) ->
     return choose(scene, rom, errors.largest)
 
 
-def choose(scene: Scene, rom: Rom, doubt: Doubt) -> Choice:
+def choose(scene: Scene, rom: Rom, model_error: Doubt) -> Choice:
     """Choose step, rods and strips for ``scene.accuracy`` at some of the scene's speeds.
 
-    ``doubt``: errors of frequencies and compliances.
+    ``model_error``: errors of frequencies and compliances.
 
     Raises
     ------
@@ -155,32 +155,35 @@ def choose(scene: Scene, rom: Rom, doubt: Doubt) -> Choice:
         When the scene does not fit the reduced model, or the error of the model, of its mesh or of
         the most strips allowed leaves too little of the accuracy.
     """
-    require_model(scene.allowed_error, doubt)
+    require_model(scene.allowed_error, model_error)
     coarse = coarser(rom)
     speeds = _pilot_speeds(scene, rom)
-    now = _first(scene, rom, speeds)
-    runs = {Omega: march_with_errors(scene, rom, coarse, Omega, now) for Omega in speeds}
+    fineness = _first(scene, rom, speeds)
+    runs = {Omega: march_with_errors(scene, rom, coarse, Omega, fineness) for Omega in speeds}
     worst = max(runs.values(), key=_error)
     expected = min(worst.largest_error, 1.0)
     for attempt in range(TRIES):
-        if worst.largest_error <= MET * scene.allowed_error or now.steps_per_round >= MOST_STEPS:
+        if (
+            worst.largest_error <= MET * scene.allowed_error
+            or fineness.steps_per_round >= MOST_STEPS
+        ):
             break
         parts = error_by_part(worst, coarse)
         if attempt > 1:  # else the steps may be too long to tell
             _require_finest(worst, scene, rom, coarse, parts)
-        before, old = runs, now
-        now, expected = _finer(scene, rom, old, parts)
-        runs = {Omega: march_with_errors(scene, rom, coarse, Omega, now) for Omega in before}
-        converging = _converging(before, runs, now.steps_per_round / old.steps_per_round)
+        before, old = runs, fineness
+        fineness, expected = _finer(scene, rom, old, parts)
+        runs = {Omega: march_with_errors(scene, rom, coarse, Omega, fineness) for Omega in before}
+        converging = _converging(before, runs, fineness.steps_per_round / old.steps_per_round)
         worst = max(converging or [min(runs.values(), key=_error)], key=_error)
     worst = max(runs.values(), key=_error)
     if worst.largest_error > MET * scene.allowed_error:
         _require_finest(worst, scene, rom, coarse, error_by_part(worst, coarse))
     return Choice(
         accuracy=scene.allowed_error,
-        **vars(now),
-        basis_error=doubt.basis,
-        mesh_error=doubt.mesh,
+        **vars(fineness),
+        basis_error=model_error.basis,
+        mesh_error=model_error.mesh,
         speeds=[*runs],
         expected=expected,
         times=quick_times(runs.values(), coarse),
@@ -201,7 +204,7 @@ def _pilot_speeds(scene: Scene, rom: Rom) -> NDArray[np.float64]:
     return speeds[((np.arange(count) + 0.5) * len(speeds) / count).astype(int)]
 
 
-def _finer(scene: Scene, rom: Rom, now: Fineness, parts: Parts) -> tuple[Fineness, float]:
+def _finer(scene: Scene, rom: Rom, fineness: Fineness, parts: Parts) -> tuple[Fineness, float]:
     """Steps, rods and strips that meet the accuracy, and the error expected with them.
 
     Raises
@@ -209,18 +212,18 @@ def _finer(scene: Scene, rom: Rom, now: Fineness, parts: Parts) -> tuple[Finenes
     SceneError
         As ``choose``.
     """
-    strips = _strips_for(scene, rom, now.strips, parts)
-    of_strips = parts.strips * (now.strips / strips) ** 2
+    strips = _strips_for(scene, rom, fineness.strips, parts)
+    of_strips = parts.strips * (fineness.strips / strips) ** 2
     fixed = of_strips**2 + parts.model**2
-    left = sqrt(
+    remaining = sqrt(
         max((TARGET * scene.allowed_error) ** 2 - fixed, LEAST_REMAINING * scene.allowed_error**2)
     )
-    growth = min(max(sqrt(parts.step / left), 1.0), MOST_GROWTH)
-    steps = multiple_of_samples(scene, min(growth * now.steps_per_round, MOST_STEPS))
-    if (steps, strips) == (now.steps_per_round, now.strips):  # they are small, or seem so
+    growth = min(max(sqrt(parts.step / remaining), 1.0), MOST_GROWTH)
+    steps = multiple_of_samples(scene, min(growth * fineness.steps_per_round, MOST_STEPS))
+    if (steps, strips) == (fineness.steps_per_round, fineness.strips):  # they are small, or seem so
         steps = multiple_of_samples(scene, min(LITTLE_GROWTH * steps, MOST_STEPS))
         strips = _most_strips(scene, rom)
-    of_step = parts.step * (now.steps_per_round / steps) ** 2
+    of_step = parts.step * (fineness.steps_per_round / steps) ** 2
     return _with_rods(scene, rom, steps, strips), sqrt(of_step**2 + fixed)
 
 
@@ -235,10 +238,10 @@ def _require_finest(worst: Run, scene: Scene, rom: Rom, coarse: Coarser, parts: 
     SceneError
         As ``choose``.
     """
-    most, now = _most_strips(scene, rom), Fineness.of(worst.setup)
-    if not _refusal(scene, parts, now.strips, most):
+    most, fineness = _most_strips(scene, rom), Fineness.of(worst.setup)
+    if not _refusal(scene, parts, fineness.strips, most):
         return
-    finest = _with_rods(scene, rom, min(MOST_GROWTH * now.steps_per_round, MOST_STEPS), most)
+    finest = _with_rods(scene, rom, min(MOST_GROWTH * fineness.steps_per_round, MOST_STEPS), most)
     run = march_with_errors(scene, rom, coarse, worst.setup.Omega, finest)
     missed = run.largest_error > MET * scene.allowed_error
     if missed and (why := _refusal(scene, error_by_part(run, coarse), most, most)):
@@ -300,13 +303,17 @@ def march_to_accuracy(scene: Scene, rom: Rom, Omega: float, choice: Choice) -> R
     return run
 
 
-def _converging(before: dict[float, Run], now: dict[float, Run], growth: float) -> list[Run]:
+def _converging(before: dict[float, Run], after: dict[float, Run], growth: float) -> list[Run]:
     """Runs whose error falls with ``growth`` times the steps.
 
     Chaotic motion does not converge with the step: such runs are left out.
     """
     least = growth**LEAST_ORDER if growth > 1 else 0.0
-    return [run for k, run in now.items() if run.largest_error * least <= before[k].largest_error]
+    return [
+        run
+        for Omega, run in after.items()
+        if run.largest_error * least <= before[Omega].largest_error
+    ]
 
 
 def _around(scene: Scene, rom: Rom) -> float:

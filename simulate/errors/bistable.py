@@ -44,7 +44,7 @@ def largest(changes: Numbers) -> float:
 
 
 def jump(
-    at: Callable[[float], Numbers], known: dict[float, Numbers]
+    at: Callable[[float], Numbers], results: dict[float, Numbers]
 ) -> tuple[Numbers, Numbers] | None:
     """Numbers on both sides of a jump between models; None without one.
 
@@ -54,28 +54,28 @@ def jump(
     Parameters
     ----------
     at : numbers of the model that differs by a share
-    known : those at some shares, to which more are added
+    results : those at some shares, to which more are added
 
     >>> step = lambda share: {"amplitude": 1 + (share > 0.3) + share / 10}
     >>> low, high = jump(step, {share: step(share) for share in (-1.0, 0.0, 1.0)})
     >>> round(low["amplitude"], 1), round(high["amplitude"], 1)
     (1.0, 2.0)
     """
-    shares = sorted(known)
-    low, high = max(pairwise(shares), key=lambda ends: _across(known, *ends))
-    first = _across(known, low, high)
+    shares = sorted(results)
+    low, high = max(pairwise(shares), key=lambda ends: _across(results, *ends))
+    first = _across(results, low, high)
     if first < JUMP_FROM:
         return None
     for _ in range(HALVINGS):
         middle = (low + high) / 2
-        known[middle] = at(middle)
+        results[middle] = at(middle)
         halves = (low, middle), (middle, high)
-        low, high = max(halves, key=lambda ends: _across(known, *ends))
-    if _across(known, low, high) < JUMPS * min(first, 1.0):
+        low, high = max(halves, key=lambda ends: _across(results, *ends))
+    if _across(results, low, high) < JUMPS * min(first, 1.0):
         return None
-    return known[low], known[high]
+    return results[low], results[high]
 
 
-def _across(known: dict[float, Numbers], low: float, high: float) -> float:
-    changes = change(known[low], known[high])
+def _across(results: dict[float, Numbers], low: float, high: float) -> float:
+    changes = change(results[low], results[high])
     return max(changes.get(name, 0.0) for name in TELL_APART)

@@ -18,29 +18,29 @@ from simulate.marching import TO_THE_END
 
 
 def checked(
-    runs: Sequence[Run], share: float, left: float = 0.0, report: Say = silent
+    runs: Sequence[Run], share: float, budget: float = 0.0, report: Say = silent
 ) -> tuple[list[Run], float]:
-    """Check some of the ``runs``, speeds ascending; also what is left for others, in steps.
+    """Check some of the ``runs``, speeds ascending; also what remains for others, in steps.
 
-    ``runs`` are ``judged``; ``share``: of their steps that checks may take, beside what others have
-    ``left``.
+    ``runs`` are ``judged``; ``share``: of their steps that checks may take, with what others have
+    not used, ``budget``.
     """
-    found = sorted(runs, key=lambda run: run.setup.Omega)
-    left += share * sum(run.steps for run in found)
-    queue, beside_wrong, any_yet = _in_turn(found) if share else [], set(), False
+    ordered = sorted(runs, key=lambda run: run.setup.Omega)
+    budget += share * sum(run.steps for run in ordered)
+    queue, next_to_wrong, any_yet = _in_turn(ordered) if share else [], set(), False
     while queue:
-        run, begun = found[i := queue.pop(0)], perf_counter()
-        one_more = left >= 0 and not any_yet and risk(run) > RISKY
-        if not (left >= TWICE * run.steps or one_more or i in beside_wrong):
+        run, begun = ordered[i := queue.pop(0)], perf_counter()
+        one_more = budget >= 0 and not any_yet and risk(run) > RISKY
+        if not (budget >= TWICE * run.steps or one_more or i in next_to_wrong):
             continue
         new, any_yet = judged(run, check=True), True
-        left -= new.steps - run.steps
-        found[i] = replace(new, seconds=run.seconds + perf_counter() - begun)
-        report(f"{found[i].line}; checked, error {new.largest_error:.2g}")
+        budget -= new.steps - run.steps
+        ordered[i] = replace(new, seconds=run.seconds + perf_counter() - begun)
+        report(f"{ordered[i].line}; checked, error {new.largest_error:.2g}")
         if new.outcome.status == "inaccurate" or new.setup.h != run.setup.h:
-            beside_wrong |= {i - 1, i + 1}
-            queue.sort(key=lambda j: j not in beside_wrong)
-    return found, left
+            next_to_wrong |= {i - 1, i + 1}
+            queue.sort(key=lambda j: j not in next_to_wrong)
+    return ordered, budget
 
 
 def _in_turn(runs: Sequence[Run]) -> list[int]:

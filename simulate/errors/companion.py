@@ -120,9 +120,9 @@ def with_errors(run: Run, coarser: Coarser, times: dict[str, float] | None = Non
     With ``times`` from a companion of four times the step, whose difference is so many errors, by
     observable; without, of twice the step.
     """
-    found = from_companion(run, coarser, QUICK_STEP_RATIO if times else STEP_RATIO)
-    times = times or dict.fromkeys(found, TIMES)
-    return replace(run, errors={name: d / times[name] for name, d in found.items()})
+    changes = from_companion(run, coarser, QUICK_STEP_RATIO if times else STEP_RATIO)
+    times = times or dict.fromkeys(changes, TIMES)
+    return replace(run, errors={name: d / times[name] for name, d in changes.items()})
 
 
 def from_companion(run: Run, coarser: Coarser, step_ratio: int) -> dict[str, float]:
@@ -133,7 +133,7 @@ def from_companion(run: Run, coarser: Coarser, step_ratio: int) -> dict[str, flo
 def _companion(run: Run, coarser: Coarser, step_ratio: int = STEP_RATIO) -> Run:
     """March the companion; its states are those of the run's own model."""
     coarse, T = coarser
-    other = run.beside(companion(run.setup, coarse, step_ratio)).march()
+    other = run.neighbour(companion(run.setup, coarse, step_ratio)).march()
     return replace(other, outcome=replace(other.outcome, states=other.outcome.states @ T.T))
 
 
@@ -144,8 +144,8 @@ def error_by_part(run: Run, coarser: Coarser) -> Parts:
     """
     longer = Fineness.of(run.setup).with_longer_step()
     of_scene = (
-        run.beside(Neighbour("coarser", scene=of.scene)).march()
-        for of in (longer, longer.with_fewer_strips())
+        run.neighbour(Neighbour("coarser", scene=fineness.scene)).march()
+        for fineness in (longer, longer.with_fewer_strips())
     )
     runs = (run, *of_scene, _companion(run, coarser))
     errors = (max(_differences(*pair).values()) / TIMES for pair in pairwise(runs))
@@ -170,15 +170,15 @@ def quick_times(runs: Iterable[Run], coarser: Coarser) -> dict[str, float]:
 
     The geometric mean over the ``runs``; at least that from a companion of twice the step.
     """
-    found = [(run.errors, from_companion(run, coarser, QUICK_STEP_RATIO)) for run in runs]
+    of_runs = [(run.errors, from_companion(run, coarser, QUICK_STEP_RATIO)) for run in runs]
 
     def times(name: str) -> float:
         """Geometric mean of the ratios of one observable, ``TIMES`` at least."""
-        pairs = ((d[name], errors[name]) for errors, d in found)
+        pairs = ((d[name], errors[name]) for errors, d in of_runs)
         ratios = [d / error for d, error in pairs if 0 < d < inf and 0 < error < inf]
         return max(geometric_mean(ratios), TIMES) if ratios else TIMES
 
-    return {name: times(name) for name in found[0][0]}
+    return {name: times(name) for name in of_runs[0][0]}
 
 
 def multiple_of_samples(scene: Scene, steps: float) -> int:

@@ -10,9 +10,9 @@ from typing import Any, NamedTuple
 ONE_MOTION, TWO_MOTIONS, CHAOTIC = "one motion", "two motions", "not predictable"
 
 
-def same(of: Any) -> Any:
+def same(value: Any) -> Any:
     """The thing itself."""
-    return of
+    return value
 
 
 class Neighbour(NamedTuple):

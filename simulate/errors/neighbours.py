@@ -65,7 +65,7 @@ def one_rod_more(scene: Scene, samples: int | None = None) -> Scene:
         "liner": {"rods_per_round": scene.liner.nu + 1},
     }
     return scene.model_copy(
-        update={key: getattr(scene, key).model_copy(update=of) for key, of in changes.items()}
+        update={key: getattr(scene, key).model_copy(update=value) for key, value in changes.items()}
     )
 
 
@@ -77,8 +77,8 @@ QUARTER = Neighbour("a quarter of the step", steps=4, cost=4.0)
 
 def raised(share: float, along: bool = False) -> Neighbour:
     """The run on a model with all natural frequencies higher by a ``share`` of themselves."""
-    made = partial(_raised, share=share, along=along)
-    return Neighbour(f"frequencies by {share:g}", rom=made, along=along)
+    marched = partial(_raised, share=share, along=along)
+    return Neighbour(f"frequencies by {share:g}", rom=marched, along=along)
 
 
 def _raised(rom: Rom, share: float, along: bool) -> Rom:
@@ -87,54 +87,59 @@ def _raised(rom: Rom, share: float, along: bool) -> Rom:
     return replace(rom, K=rom.K * (1 + share) ** 2, f1=f1)
 
 
-def judged(run: Run, met: bool = True, check: bool = False) -> Run:
+def judged(run: Run, accurate: bool = True, check: bool = False) -> Run:
     """March the second runs that the scene asks for beside a run, and decide on its status.
 
-    ``met``: whether the errors that it has are within its ``accuracy``. ``check``: bound the error
-    of its step, by twice the step where that is enough, else as with `halving`, and by a twin.
-    Where only a quarter of the step converges, its run is the result. A run without second runs and
-    errors may lose less energy (``resolution``).
+    ``accurate``: whether the errors that it has are within its ``accuracy``. ``check``: bound the
+    error of its step, by twice the step where that is enough, else as with `halving`, and by a
+    twin. Where only a quarter of the step converges, its run is the result. A run without second
+    runs and errors may lose less energy (``resolution``).
     """
-    made = [
+    marched = [
         run := replace(run, outcome=replace(run.outcome, status=status.judge(run.outcome.facts)))
     ]
 
-    def beside(other: Neighbour) -> Run:
-        made.append(run.beside(other).march())
-        return made[-1]
+    def march_second(other: Neighbour) -> Run:
+        marched.append(run.neighbour(other).march())
+        return marched[-1]
 
-    found, bound = _found(run, beside, check)
-    apart, outcome = max(found.departures.values(), default=0.0), found.outcome
-    lost = status.LOST if found.errors else LOST[run.scene.stepping.scheme]
-    word = status.judge(outcome.facts, apart, bound, met, lost)
-    reason = outcome.reason if word == outcome.status else ""
+    result, bound = _from_second_runs(run, march_second, check)
+    departure, outcome = max(result.departures.values(), default=0.0), result.outcome
+    lost = status.LOST if result.errors else LOST[run.scene.stepping.scheme]
+    verdict = status.judge(outcome.facts, departure, bound, accurate, lost)
+    reason = outcome.reason if verdict == outcome.status else ""
     return replace(
-        found,
-        outcome=replace(outcome, status=word, reason=reason),
-        steps=run.steps + sum(of.outcome.rounds * of.setup.steps for of in made[bool(run.steps) :]),
+        result,
+        outcome=replace(outcome, status=verdict, reason=reason),
+        steps=run.steps
+        + sum(value.outcome.rounds * value.setup.steps for value in marched[bool(run.steps) :]),
     )
 
 
-def _found(run: Run, beside: Callable[[Neighbour], Run], check: bool) -> tuple[Run, float]:
+def _from_second_runs(
+    run: Run, march_second: Callable[[Neighbour], Run], check: bool
+) -> tuple[Run, float]:
     """The run, or that in its place, with what second runs find; the bound that counts."""
     errors, bound, departures = run.errors, 0.0, run.departures
     doubtful, ended = run.scene.halving, run.outcome.status in TO_THE_END
     if check and ended and not doubtful:
-        errors, bound = from_twice(run, beside)
+        errors, bound = from_twice(run, march_second)
         doubtful = bound > NEAR
     if doubtful and ended:
-        half = beside(HALF)
+        half = march_second(HALF)
         errors, bound = _against(run, half, OF_HALF)
     doubtful = bound > NEAR
     if not departures and (run.scene.twin or (check and doubtful)):
-        departures = differences(run, beside(TWIN))
-    result, apart = run, max(departures.values(), default=0.0)
-    if doubtful and not apart > SENSITIVE_FROM:  # nan of runs without a result
-        result, errors, bound = from_quarter(run, half, beside(QUARTER))
+        departures = differences(run, march_second(TWIN))
+    result, departure = run, max(departures.values(), default=0.0)
+    if doubtful and not departure > SENSITIVE_FROM:  # nan of runs without a result
+        result, errors, bound = from_quarter(run, half, march_second(QUARTER))
     return replace(result, errors=errors, departures=departures), bound
 
 
-def from_twice(run: Run, beside: Callable[[Neighbour], Run]) -> tuple[dict[str, float], float]:
+def from_twice(
+    run: Run, march_second: Callable[[Neighbour], Run]
+) -> tuple[dict[str, float], float]:
     """Bounds of errors from a run with twice the step, and the one that counts.
 
     The latter is inf where such a step may be too long for the scheme, friction, or the samples.
@@ -149,7 +154,7 @@ def from_twice(run: Run, beside: Callable[[Neighbour], Run]) -> tuple[dict[str, 
         return {}, inf
     thinned = partial(one_rod_more, samples=samples)
     longer = Neighbour("twice the step", thinned, steps=TWICE, cost=TWICE)
-    return _against(run, beside(longer), OF_TWICE)
+    return _against(run, march_second(longer), OF_TWICE)
 
 
 def from_quarter(run: Run, half: Run, quarter: Run) -> tuple[Run, dict[str, float], float]:
@@ -170,7 +175,7 @@ def _against(run: Run, other: Run, safety: float) -> tuple[dict[str, float], flo
     The largest; inf where one fails, where they end differently, and where the share of steps with
     contact differs by over a quarter.
     """
-    errors = {name: safety * of for name, of in differences(run, other, neither=inf).items()}
+    errors = {name: safety * value for name, value in differences(run, other, neither=inf).items()}
     same = run.outcome.status == other.outcome.status and not _other_contact(run, other)
     return errors, max(errors.values()) if same else inf
 

@@ -52,7 +52,7 @@ def observables(run: Run, samples: int | None = None, rods: int | None = None) -
     every = record.samples_per_round // samples
     thinned = slice(every - 1, None, every)  # the first lies a sample after the start
 
-    found = {
+    readers = {
         # of the last revolutions; aliasing is the same where both runs are thinned alike
         "spectrum": lambda: spectrum(
             outcome.u_r[thinned][-record.rounds_of_spectrum * samples :, 0]
@@ -64,7 +64,7 @@ def observables(run: Run, samples: int | None = None, rods: int | None = None) -
         "force_peak": lambda: outcome.force_peak[: ceil(outcome.rounds)],
         "states": lambda: outcome.states[thinned],
     }
-    return {name: found[name]() for name in record.observables}
+    return {name: readers[name]() for name in record.observables}
 
 
 def differences(
@@ -81,10 +81,10 @@ def differences(
         return dict.fromkeys(one.scene.record.observables, neither if ends[0] == ends[1] else inf)
     samples = min(run.scene.record.samples_per_round for run in (one, other))
     rods = max(run.outcome.wear.shape[1] for run in (one, other))
-    return apart(*(observables(run, samples, rods) for run in (one, other)))
+    return relative_differences(*(observables(run, samples, rods) for run in (one, other)))
 
 
-def apart(one: Observables, other: Observables) -> dict[str, float]:
+def relative_differences(one: Observables, other: Observables) -> dict[str, float]:
     """Relative difference of each observable in L2 (``distance``), over ``LEAST`` at least."""
     return {
         name: distance(values, other[name], LEAST[name] * np.sqrt(values.size))
@@ -124,16 +124,16 @@ def numbers(run: Run, k: int | None = None) -> Numbers:
     ``k``: engine order of the amplitude; without it the largest. Wear is that of files, in single
     precision.
     """
-    found, record, outcome = {}, run.scene.record, run.outcome
+    result, record, outcome = {}, run.scene.record, run.outcome
     if record.spectrum_rounds and outcome.status in WITH_RESULT:
         bins = last_spectrum(run)
-        found["amplitude"] = float(amplitude(bins, record.spectrum_rounds, k))
+        result["amplitude"] = float(amplitude(bins, record.spectrum_rounds, k))
     if isfinite(largest := outcome.each.largest[0]):
-        found["displacement"] = largest
+        result["displacement"] = largest
     wear = outcome.wear.astype(np.float32)
     where = wear, run.setup.places.width, run.setup.places.radius
     profile = by_share(wear, outcome.ends)[0]
-    found |= {
+    result |= {
         "wear": float(profile.max()),
         "wear_mean": float(profile.mean()),
         "wear_anywhere": float(wear.max()),
@@ -141,12 +141,12 @@ def numbers(run: Run, k: int | None = None) -> Numbers:
         "worn_volume": float(worn_volume(*where)),
         "opening": float(mean_opening(*where)),
     }
-    return found | (_forces(run) if record.contact_force else {})
+    return result | (_forces(run) if record.contact_force else {})
 
 
 def _forces(run: Run) -> Numbers:
-    outcome, known = run.outcome, run.scene.no_torque is None
-    torque = torque_of_rounds(run.scene, run.rom, outcome) if known else None
+    outcome, has_torque = run.outcome, run.scene.no_torque is None
+    torque = torque_of_rounds(run.scene, run.rom, outcome) if has_torque else None
     return {
         "force_peak": float(np.nanmax(outcome.force_peak)),
         "force_mean": float(mean_force(outcome.force_mean)),

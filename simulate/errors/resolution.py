@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import label, maximum
 
 from simulate.contact.strips import rods_in_footprint
-from simulate.contact.travelling import farthest, met
+from simulate.contact.travelling import distortion_passed, farthest
 from simulate.errors.run import Run
 from simulate.marching import SceneError, Setup
 from simulate.scene import Scene
@@ -102,7 +102,7 @@ def shortest_window(footprint: float, setup: Setup, deepest: float) -> float:
     that travels is taken as the blade meets it in its first revolution.
     """
     strips, nu = setup.strips, setup.strips.d.size
-    lengths = _windows((met(strips) - strips.g0.min()) / deepest)
+    lengths = _windows((distortion_passed(strips) - strips.g0.min()) / deepest)
     flat = strips.tip.half == 0.0  # else it bears with a part of its footprint
     rods = rods_in_footprint(footprint, setup.places.radius.mean(), nu)
     return float((lengths.min(initial=np.inf) + flat * rods) / strips.advance)
@@ -115,6 +115,6 @@ def _windows(depth: NDArray[np.float64]) -> NDArray[np.float64]:
         return np.array([np.inf])
     start = -int(np.argmin(inside))  # at a rod outside, so that no window is cut
     number, count = label(np.roll(inside, start))
-    of = np.arange(1, count + 1)
-    reaches = maximum(np.roll(depth, start), number, of) > DEEP
+    index = np.arange(1, count + 1)
+    reaches = maximum(np.roll(depth, start), number, index) > DEEP
     return np.bincount(number)[1:][reaches].astype(float)

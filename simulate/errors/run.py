@@ -35,7 +35,7 @@ class Case:
         """Steps in which the blade turns once."""
         return round(2 * np.pi / (self.setup.Omega * self.setup.h))
 
-    def beside(self, other: Neighbour) -> "Case":
+    def neighbour(self, other: Neighbour) -> "Case":
         """The case of a second run.
 
         Raises
@@ -71,10 +71,10 @@ class Run(Case):
     steps: float = 0.0  # of the run and of those beside it; 0 before ``judged``
     seconds: float = 0.0  # wall time of the run and of those beside it
 
-    def beside(self, other: Neighbour) -> Case:
+    def neighbour(self, other: Neighbour) -> Case:
         """As of a case, for as many revolutions as the run took."""
         scene = as_long(self.scene, self.outcome.rounds)
-        return Case(scene, self.rom, self.setup, self.left).beside(other)
+        return Case(scene, self.rom, self.setup, self.left).neighbour(other)
 
     @property
     def largest_error(self) -> float:

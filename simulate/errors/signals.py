@@ -148,8 +148,8 @@ def on_rods(wear: NDArray[np.float64], nu: int) -> NDArray[np.float64]:
     array([[0., 1., 2., 1.]])
     """
     rods = wear.shape[1]
-    at = np.arange(nu) * rods / nu
-    return np.array([np.interp(at, np.arange(rods), strip, period=rods) for strip in wear])
+    places = np.arange(nu) * rods / nu
+    return np.array([np.interp(places, np.arange(rods), strip, period=rods) for strip in wear])
 
 
 def blurred(profile: NDArray[np.float64], angle: float) -> NDArray[np.float64]:

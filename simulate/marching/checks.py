@@ -32,9 +32,9 @@ def check_scene(scene: Scene, rom: Rom) -> None:
     liner, clearance, directions = scene.liner, scene.clearance, scene.directions
     speeds = scene.speeds.omega(rom.f1)
     too_fast = [*_speeds(scene.speeds, rom, scene.blade)]
-    known = speeds[speeds <= rom.Omega_m * (1 + ROUND_OFF)]  # others are a fault of their own
-    outgrown = growth_fault(clearance, rom, strip_places(rom, liner.m).xi, known)
-    gaps_are_known = not (clearance.at_rest and (too_fast or outgrown))
+    allowed = speeds[speeds <= rom.Omega_m * (1 + ROUND_OFF)]  # others are a fault of their own
+    outgrown = growth_fault(clearance, rom, strip_places(rom, liner.m).xi, allowed)
+    has_gaps = not (clearance.at_rest and (too_fast or outgrown))
     faults = [  # in the order of their lines
         *_model(scene.blade, scene.contact, [*scene.record.grids], directions, rom),
         *too_fast,
@@ -42,7 +42,7 @@ def check_scene(scene: Scene, rom: Rom) -> None:
         *_strips(liner, rom),
         *_gaps(clearance.gaps([0, 1], rom.span)),
         *outgrown,
-        *(_edge(liner, scene.contact.profile, clearance, rom, speeds) if gaps_are_known else ()),
+        *(_edge(liner, scene.contact.profile, clearance, rom, speeds) if has_gaps else ()),
     ]
     if faults:
         raise SceneError(*faults)

@@ -77,8 +77,8 @@ def sliding(scheme: Scheme, mu: float, stiffness: NDArray[np.float64]) -> Scheme
     """``scheme``, with tangential rows, whose forces slide; ``stiffness`` k (strips,), N/m."""
     first_t, m = len(scheme.C) // 2, len(stiffness)
     A = np.ascontiguousarray(scheme.C[:m, :m] + mu * scheme.C[:m, first_t : first_t + m])
-    of = Sliding(mu, A, 1 / stiffness)
-    return scheme._replace(find_force=find_sliding_force, forces=sliding_forces, sliding=of)
+    solved_by = Sliding(mu, A, 1 / stiffness)
+    return scheme._replace(find_force=find_sliding_force, forces=sliding_forces, sliding=solved_by)
 
 
 def monotony(
@@ -127,15 +127,19 @@ def mu_crit(modes: Modes, stiffness: NDArray[np.float64]) -> float:
     m = len(stiffness)
     ends = np.unique(np.ceil(m * np.linspace(0, 1, PLACES + 1)).astype(int)).tolist()
     sets = [slice(i, i + 1) for i in range(m)]
-    sets += [slice(*of) for of in combinations(ends, 2)]
+    sets += [slice(*pair) for pair in combinations(ends, 2)]
     most = max(_most(np.linalg.solve(S[part, part], -C_rt[part, part])) for part in sets)
     return float(1 / most) if most > 0 else np.inf
 
 
 def _most(A: NDArray[np.float64]) -> float:
     """Largest positive real eigenvalue; 0 without one."""
-    of = np.linalg.eigvals(A)
-    return float(of.real[np.abs(of.imag) <= ROUND_OFF * np.abs(of)].max(initial=0.0))
+    eigenvalues = np.linalg.eigvals(A)
+    return float(
+        eigenvalues.real[np.abs(eigenvalues.imag) <= ROUND_OFF * np.abs(eigenvalues)].max(
+            initial=0.0
+        )
+    )
 
 
 def growth_rate(modes: Modes, mu: float, zeta: float, stiffness: NDArray[np.float64]) -> float:
@@ -158,18 +162,20 @@ def split(strips, covered, soft, solver, n):
     """
     A, other = solver.matrix, solver.change
     for p in range(n):
-        at, c = solver.unknowns[p], abs(solver.C[p, p])
-        at.w, F, _ = solve_strip(strips, covered, at.strip, at.shift, c, np.inf, solver.F[p])
-        solver.F[p], g = F, c + soft[at.strip]
-        other[p] = at.v + 2 * g * F - at.shift
+        unknown, c = solver.unknowns[p], abs(solver.C[p, p])
+        unknown.w, F, _ = solve_strip(
+            strips, covered, unknown.strip, unknown.shift, c, np.inf, solver.F[p]
+        )
+        solver.F[p], g = F, c + soft[unknown.strip]
+        other[p] = unknown.v + 2 * g * F - unknown.shift
         for q in range(n):
             A[p, q] = solver.C[p, q]
-        A[p, p] += soft[at.strip] + g
+        A[p, p] += soft[unknown.strip] + g
     eliminate(A, n)
     substitute(A, other, n)
     for p in range(n):
-        at = solver.unknowns[p]
-        at.shift += (abs(solver.C[p, p]) + soft[at.strip]) * (other[p] - solver.F[p])
+        unknown = solver.unknowns[p]
+        unknown.shift += (abs(solver.C[p, p]) + soft[unknown.strip]) * (other[p] - solver.F[p])
 
 
 @compiled
@@ -184,8 +190,8 @@ def solve_sliding(strips, covered, soft, solver, count):
         if number == 0:
             places_under_forces(solver, n)
             for p in range(n):
-                at = solver.unknowns[p]
-                at.shift = at.w + abs(solver.C[p, p]) * solver.F[p]
+                unknown = solver.unknowns[p]
+                unknown.shift = unknown.w + abs(solver.C[p, p]) * solver.F[p]
         for _ in range(SPLITTINGS):
             split(strips, covered, soft, solver, n)
     return False
@@ -218,6 +224,6 @@ def book_friction(strips, state, step):
 @compiled
 def find_sliding_force(scheme, strips, state, step):
     """As ``find_force``, and book the friction."""
-    found = find_force(scheme, strips, state, step)
+    pressed = find_force(scheme, strips, state, step)
     book_friction(strips, state, step)
-    return found
+    return pressed

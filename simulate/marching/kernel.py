@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 from simulate.contact.compiled import (
     FIRST,
     compiled,
-    compiled_apart,
     compiled_kernel,
+    compiled_not_inlined,
     compiled_sums,
 )
 from simulate.contact.interface_force import Solver, new_solver
@@ -88,7 +88,7 @@ def may_touch(strips, motion, a_first, a_last, number, now, last):
     return beyond
 
 
-@compiled_apart
+@compiled_not_inlined
 def march_free(scheme, strips, motion, energies, a_first, a_last, number, end, round_turn, loaded):
     """Free motion from step ``number`` until the tip may touch, to step ``end`` at most.
 

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from simulate.contact.compiled import FIRST, compiled, compiled_sums
 from simulate.contact.interface_force import ACTIVE, APART, DETECTED, solve
 from simulate.contact.ledger import CASING, WORK
-from simulate.contact.rods import bearing, bears, cover, press, widen
+from simulate.contact.rods import contact_force, cover, in_contact, press, widen
 from simulate.contact.strips import offset, profile_at
 from simulate.marching.modal import Motion, Scheme, scheme_arrays
 
@@ -226,25 +226,25 @@ def activate(strips, state, step, count):
     """
     motion, solver, covered = state.motion, state.solver, state.covered
     for i in range(strips.g0.size):
-        forecast, of = motion.u[step.now, i], solver.strips[i]
+        forecast, at_strip = motion.u[step.now, i], solver.strips[i]
         w = forecast - motion.moved[i]
         near = w > motion.free[i] or (
-            of.state == APART
+            at_strip.state == APART
             and (motion.u[step.last, i] > motion.free[i] or covered.strips[i].stored > 0.0)
         )
-        if of.state == ACTIVE or not near:
+        if at_strip.state == ACTIVE or not near:
             continue
-        if of.state == APART:
+        if at_strip.state == APART:
             detect(strips, state, step, i)
-        top, t_N, t_T = strips.rigid_depth - of.casing, 1.0, 0.0
+        top, t_N, t_T = strips.rigid_depth - at_strip.casing, 1.0, 0.0
         if strips.tangential:
-            t_N, t_T, _ = bearing(strips, covered, np.uint64(i), w)
-        if w > top or (t_N != 0.0 and bears(covered, i, w)):
-            of.state = ACTIVE
-            at = solver.unknowns[count]
-            at.strip, at.v, at.top = i, forecast, top
-            at.tau = t_T / t_N if strips.tangential and t_N > 0.0 else 0.0
-            solver.F[count] = of.F
+            t_N, t_T, _ = contact_force(strips, covered, np.uint64(i), w)
+        if w > top or (t_N != 0.0 and in_contact(covered, i, w)):
+            at_strip.state = ACTIVE
+            unknown = solver.unknowns[count]
+            unknown.strip, unknown.v, unknown.top = i, forecast, top
+            unknown.tau = t_T / t_N if strips.tangential and t_N > 0.0 else 0.0
+            solver.F[count] = at_strip.F
             count += 1
     return count
 
@@ -254,9 +254,9 @@ def widen_reached(strips, state, step, count):
     """Widen the reach of strips that forces lift beyond it; whether there are any."""
     u, covered, solver, wider = state.motion.u, state.covered, state.solver, False
     for p in range(count):
-        at = solver.unknowns[p]
-        if at.w > covered.strips[at.strip].reach:
-            i, wider = np.int64(at.strip), True
+        unknown = solver.unknowns[p]
+        if unknown.w > covered.strips[unknown.strip].reach:
+            i, wider = np.int64(unknown.strip), True
             widen(strips, covered, state.eps_p, i, u[step.last, i], u[step.now, i])
     for i in range(strips.g0.size):
         w = u[step.now, i] - state.motion.moved[i]
@@ -312,12 +312,12 @@ def press_detected(strips, state, step, count):
     covered, eps_p, energies = state.covered, state.eps_p, state.energies
     deepest, where, touched = 0.0, 0, False
     for p in range(count):
-        at = solver.unknowns[p]
-        i, w_before = np.int64(at.strip), u[step.last, at.strip]
-        borne, _, depth = press(strips, covered, eps_p, i, at.w, w_before, energies)
+        unknown = solver.unknowns[p]
+        i, w_before = np.int64(unknown.strip), u[step.last, unknown.strip]
+        borne, _, depth = press(strips, covered, eps_p, i, unknown.w, w_before, energies)
         touched |= solver.F[p] > 0.0
         if rigid:  # push of the casing itself, by the way that it came
-            reaction, way = max(solver.F[p] - borne, 0.0), w_before - at.top
+            reaction, way = max(solver.F[p] - borne, 0.0), w_before - unknown.top
             # it may also do negative work on a strip that it held a step before, not on another
             if way > 0.0 or solver.strips[i].reaction > 0.0:
                 energies[CASING] += reaction * way
@@ -365,7 +365,7 @@ def find_force(scheme, strips, state, step):
         wider = widen_reached(strips, state, step, count)
     for row in range(u.shape[1]):
         u[step.now, row] -= C_F[row]
-    found = press_detected(strips, state, step, count)
+    pressed = press_detected(strips, state, step, count)
     for row in range(u.shape[1]):
         state.energies[WORK] -= force[row] * (u[step.now, row] - u[step.last, row])
-    return found
+    return pressed

@@ -130,11 +130,11 @@ def march(scene: Scene, setup: Setup, left: Left | Worn | None = None) -> Outcom
     standing = max(scene.casing.changes_until - first, 0)  # first revolution that counts, from 0
     least = scene.record.rounds_of_spectrum
     judged = looks(standing, least, scene.rounds) if scene.until else {scene.rounds}
-    still = [STEADY] * 2 if scene.until else None  # at two looks in turn
+    both_steady = [STEADY] * 2 if scene.until else None  # at two looks in turn
     every = 2 - scene.record.samples_per_round % 2  # twice as many readings cost a run 2 % more
     of_round = scene.record.samples_per_round // every, len(setup.Phi_gauges)
     gauges = np.full((least, *of_round), np.nan)
-    while done < scene.rounds and end == RUNNING and words[-2:] != still:
+    while done < scene.rounds and end == RUNNING and words[-2:] != both_steady:
         of_kernel = arguments(done, first)
         touched, step, end, node = kernel(*of_kernel)
         contacts += touched
@@ -164,13 +164,13 @@ def march(scene: Scene, setup: Setup, left: Left | Worn | None = None) -> Outcom
     )
     status = judge(facts)
     to_the_end, wanted = status in WITH_RESULT, scene.record.end or scene.speeds.in_turn
-    at = (np.nan, np.nan) if to_the_end else _place(setup, state, end, node, step, total)
+    place = (np.nan, np.nan) if to_the_end else _place(setup, state, end, node, step, total)
     u_r, forces, states = (_in_order(array[1:], done, scene.until) for array in kept)
     return Outcome(
         status=status,
         rounds=marched / steps,
-        xi=at[0],
-        theta=at[1],
+        xi=place[0],
+        theta=place[1],
         facts=facts,
         u_r=u_r.reshape(-1, len(setup.Phi_out)),
         states=states.reshape(-1, states.shape[2])[:, : len(setup.Phi)] @ setup.Phi.T,

@@ -223,8 +223,8 @@ def _steps_per_round(integrator: Integrator, samples: int, Omega: float, limit: 
     return int(steps)
 
 
-def _multiple(steps: float, of: int) -> int:
-    return int(np.ceil(steps / of)) * of
+def _multiple(steps: float, unit: int) -> int:
+    return int(np.ceil(steps / unit)) * unit
 
 
 def strips_under(
@@ -244,7 +244,7 @@ def strips_under(
 
                       first                middle
         .  .  .  .  .  [  .  .  (  .  .  .  .  x  .  .  .  .  )  .  .  ]  .  .  .  .  .
-        margin         | beside |     footprint, m rods     | beside |         margin
+        margin         | partly |     footprint, m rods     | partly |         margin
                          passed                                passed
                         in a step                             in a step
     """
@@ -253,14 +253,19 @@ def strips_under(
     d, h = casing.inward(theta, gap), 2 * np.pi / Omega / steps
     fixed = casing.fixed(theta, gap) if casing.travelling else d
     moving = [
-        (casing.scale * of.size(gap), of.order, radians(of.phase_deg), of.turn(h))
-        for of in casing.travelling
+        (
+            casing.scale * harmonic.size(gap),
+            harmonic.order,
+            radians(harmonic.phase_deg),
+            harmonic.turn(h),
+        )
+        for harmonic in casing.travelling
     ]
     passed = nu / steps  # rods, in a step
     radius = float(rom.camber[:, 0].mean())
     length = float(max(rods_in_footprint(liner.footprint_m, radius, nu), np.ceil(passed), 1))
     m = int(np.ceil(length))
-    beside = min(max(ceil((passed - 1) / 2), 0), max(nu - m, 0) // 2)
+    partly_covered = min(max(ceil((passed - 1) / 2), 0), max(nu - m, 0) // 2)
     implicit = scene.stepping.scheme == "piecewise-exact"
     placed = 0.5 if implicit else 1.0
     w_end = share_of_end(np.maximum(compliance, 0) * strip_stiffness(liner, places))
@@ -272,12 +277,12 @@ def strips_under(
         d=d,
         d_end=d.copy(),
         # a rigid casing is met at the end of a step
-        d_window=_deepest(fixed, m, beside, MARGIN if liner.rigid_key or moving else 1),
-        first=(middle - beside - (m - 1) / 2) % nu,
+        d_window=_deepest(fixed, m, partly_covered, MARGIN if liner.rigid_key or moving else 1),
+        first=(middle - partly_covered - (m - 1) / 2) % nu,
         advance=passed,
         length=length,
         rods_covered=m,
-        beside=beside,
+        partly_covered=partly_covered,
         placed=placed,
         w_end=w_end if implicit else np.ones(len(w_end)),
         area=places.width * liner.footprint_m / length,
@@ -291,9 +296,11 @@ def strips_under(
     )
 
 
-def _deepest(d: NDArray[np.float64], m: int, beside: int, margin: int) -> NDArray[np.float64]:
+def _deepest(
+    d: NDArray[np.float64], m: int, partly_covered: int, margin: int
+) -> NDArray[np.float64]:
     """Largest d over the window from each rod on, and over ``margin`` rods on its either side."""
-    m_window = m + 1 + 2 * (beside + margin)  # 1: it may begin between two rods
+    m_window = m + 1 + 2 * (partly_covered + margin)  # 1: it may begin between two rods
     return np.roll(largest_over_window(d, min(m_window, len(d))), margin)
 
 
@@ -310,7 +317,7 @@ def _check_start(casing: Casing, strips: Strips) -> None:
     share = casing.at_start
     if share == 0 or np.isinf(strips.rigid_depth):
         return
-    deepest = _deepest(strips.d, strips.rods_covered, strips.beside, MARGIN)
+    deepest = _deepest(strips.d, strips.rods_covered, strips.partly_covered, MARGIN)
     d = deepest[strips.first.astype(int) % len(deepest)]  # a remainder by nu may be nu
     if (share * d - strips.g0).max() > strips.rigid_depth:
         ramp = (f"ramp.factor: {share:g}", "0 at revolution 0")

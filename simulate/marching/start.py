@@ -49,8 +49,8 @@ SOLVER = ("F", "reaction")  # of ``interface_force.AT_STRIP``
 
 def rows_at(rounds: int, steps: int) -> list[int]:
     """Rows, of TURNS in a ring, of the last step and the one before after so many revolutions."""
-    now = rounds * steps % TURNS
-    return [now, (now - 1) % TURNS]
+    row = rounds * steps % TURNS
+    return [row, (row - 1) % TURNS]
 
 
 def left_by(state: State, setup: Setup, rounds: int) -> Left:

@@ -48,13 +48,13 @@ class Facts:
 
 
 def judge(
-    facts: Facts, twin: float = 0.0, error: float = 0.0, met: bool = True, lost: float = LOST
+    facts: Facts, twin: float = 0.0, error: float = 0.0, accurate: bool = True, lost: float = LOST
 ) -> str:
     """Status of a run, from its facts and the findings of second runs.
 
     ``twin``: largest relative difference from its twin; ``error``: largest bound of the error of
-    its step; ``met``: whether its errors are within the accuracy asked for; ``lost``: share of the
-    energy given that its steps may lose.
+    its step; ``accurate``: whether its errors are within the accuracy asked for; ``lost``: share of
+    the energy given that its steps may lose.
 
     ``liner-exhausted``
         The tip has worn through the liner.
@@ -83,7 +83,7 @@ def judge(
         (created or not ledger.blade >= 0 or facts.unsolved > 0, "unstable"),
         (facts.end != RUNNING, "diverged"),
         (ledger.numerical < -LOST * given or facts.least_sliding < SLIDES, "inaccurate"),
-        (twin > SENSITIVE_FROM or not met, "sensitive"),
+        (twin > SENSITIVE_FROM or not accurate, "sensitive"),
         (not error <= STATED or ledger.numerical < -lost * given, "inaccurate"),
         (facts.at_rest, "no-contact"),
     )
@@ -102,32 +102,32 @@ def why_no_contact(scene: Scene, strips: Strips, eps_p: NDArray[np.float64], rou
     inward, gap = farthest(strips), float(strips.g0.min())
     ramp, key = ramp_of(scene.casing), "ramp_rounds" if scene.casing.ramp is None else "ramp"
     share = float(ramp.bounds(ramp.numbers, 0.0, float(rounds))[1])
-    known = f"the smallest gap is {MICRO * gap:.4g} um"
+    smallest_gap = f"the smallest gap is {MICRO * gap:.4g} um"
     what = "scale: 0" if scene.casing.scale == 0 else "the distortion is nowhere inward"
     reasons = (
         (
-            not scene.liner.law.bears and eps_p.any(),
+            not scene.liner.law.has_strength and eps_p.any(),
             "liner.law: sigma_Y and K are 0: the tip wears the liner without any force",
         ),
-        (inward <= 0, f"casing.{what}: nothing brings the liner to the tip; {known}"),
+        (inward <= 0, f"casing.{what}: nothing brings the liner to the tip; {smallest_gap}"),
         (
             inward <= gap,
-            f"clearance: {known}, the largest inward distortion {MICRO * inward:.4g} um: a blade "
-            "at rest is not reached; widen casing or scale, or narrow the gap",
+            f"clearance: {smallest_gap}, the largest inward distortion {MICRO * inward:.4g} um: a "
+            "blade at rest is not reached; widen casing or scale, or narrow the gap",
         ),
         (
             share * inward <= gap,
             f"casing.{key}: the casing does not reach the tip within the {rounds} revolutions: the "
             f"distortion has grown to {MICRO * share * inward:.4g} um of "
-            f"{MICRO * inward:.4g} um; {known}",
+            f"{MICRO * inward:.4g} um; {smallest_gap}",
         ),
         (
             eps_p.any(),
-            f"start: the liner is worn by more than the casing's distortion; {known}",
+            f"start: the liner is worn by more than the casing's distortion; {smallest_gap}",
         ),
         (
             scene.casing.travelling,
-            f"casing.harmonics: the travelling harmonics did not add up to the gap; {known}",
+            f"casing.harmonics: the travelling harmonics did not add up to the gap; {smallest_gap}",
         ),
         (
             True,

@@ -89,11 +89,11 @@ def looks(standing: int, least: int, most: int) -> set[int]:
     >>> sorted(looks(2, 5, 40))
     [10, 14, 20, 29, 40]
     """
-    counted, found = max(FEWEST, least - standing), {most}
+    counted, rounds = max(FEWEST, least - standing), {most}
     while standing + counted < most:
-        found.add(standing + counted)
+        rounds.add(standing + counted)
         counted += ceil(counted / 2)
-    return found
+    return rounds
 
 
 def time_constant(
@@ -122,16 +122,16 @@ def trend(swing: NDArray[np.float64], worn: NDArray[np.float64], tau: float) -> 
     n = len(swing)
     if n < FEWEST:
         return TOO_SHORT
-    quarters = np.array([of.mean() for of in np.array_split(swing, 4)])
+    quarters = np.array([quarter.mean() for quarter in np.array_split(swing, 4)])
     changes = np.diff(quarters) / max(quarters[-1], np.finfo(float).tiny)
-    for word, moves in ((GROWING, changes), (DYING_OUT, -changes)):
+    for name, moves in ((GROWING, changes), (DYING_OUT, -changes)):
         if (moves > MOVES).all() and moves[-1] > SLOWS * moves[-2]:
-            return word
+            return name
     wears = worn[-(n // 4) :].sum() > WEARS * worn.sum()
-    return STEADY if not wears and _still(swing[n // 2 :], min(tau, LONGEST * n)) else TOO_SHORT
+    return STEADY if not wears and _is_steady(swing[n // 2 :], min(tau, LONGEST * n)) else TOO_SHORT
 
 
-def _still(swing: NDArray[np.float64], tau: float) -> bool:
+def _is_steady(swing: NDArray[np.float64], tau: float) -> bool:
     """Whether the part exp(-j/tau) is small at the end of ``swing`` (n,), and its mean too.
 
     By least squares, with the standard error of the part that dies out. Neighbouring revolutions
@@ -140,10 +140,10 @@ def _still(swing: NDArray[np.float64], tau: float) -> bool:
     n = len(swing)
     decay = np.exp(-(np.arange(n) - n + 1) / tau)
     d, s = decay - decay.mean(), swing - swing.mean()
-    left = (d @ s) / (d @ d)
-    off = s - left * d
+    transient = (d @ s) / (d @ d)
+    off = s - transient * d
     square = off @ off
     rho = np.clip((off[1:] @ off[:-1]) / square, 0, 0.95) if square > 0 else 0.0
     error = np.sqrt(square / (n - 2) * (1 + rho) / (1 - rho) / (d @ d))
-    end, last = swing.mean() - left * decay.mean(), swing[n // 2 :].mean()
-    return bool(max(abs(left) + SURE * error, abs(last - end)) <= STILL * end)
+    end, last = swing.mean() - transient * decay.mean(), swing[n // 2 :].mean()
+    return bool(max(abs(transient) + SURE * error, abs(last - end)) <= STILL * end)

@@ -22,9 +22,9 @@ Gap = Annotated[float, Field(ge=0, le=0.05)]
 GapOverSpan = Annotated[float, Field(ge=0, le=0.5)]
 
 
-def _length(in_m: float | None, share: float | None, of: float) -> float:
-    """Length, m, given as such, or as a ``share`` of another one, ``of`` (m)."""
-    return known(share, "length") * of if in_m is None else in_m
+def _length(in_m: float | None, share: float | None, whole: float) -> float:
+    """Length, m, given as such, or as a ``share`` of another one, ``whole`` (m)."""
+    return known(share, "length") * whole if in_m is None else in_m
 
 
 class Clearance(Settings):
@@ -169,19 +169,25 @@ class Casing(Settings):
         """Round, from 0, at whose start the share of the distortion has taken its last value."""
         if not self.ramp:
             return ceil(known(self.ramp_rounds, "ramp_rounds"))
-        factors, at = self.ramp.factor, self.ramp.rounds
-        changes = (end for end, of in zip(at[1:], factors, strict=False) if of != factors[-1])
+        factors, rounds = self.ramp.factor, self.ramp.rounds
+        changes = (
+            end for end, factor in zip(rounds[1:], factors, strict=False) if factor != factors[-1]
+        )
         return ceil(max(changes, default=0.0))
 
     @property
     def travelling(self) -> list[Harmonic]:
         """Harmonics that travel."""
-        return [of for of in self.harmonics or () if of.speed_rad_s != 0]
+        return [harmonic for harmonic in self.harmonics or () if harmonic.speed_rad_s != 0]
 
     @property
     def orders(self) -> set[int]:
         """Engine orders with which harmonics that stand excite a blade."""
-        return {of.order for of in self.harmonics or () if of.order and not of.speed_rad_s}
+        return {
+            harmonic.order
+            for harmonic in self.harmonics or ()
+            if harmonic.order and not harmonic.speed_rad_s
+        }
 
     def inward(
         self, theta: NDArray[np.float64], gap: float, time: float = 0.0
@@ -190,10 +196,10 @@ class Casing(Settings):
         if self.table is not None:
             return self.scale * self.table.inward(theta)
         return self.scale * sum(
-            (of.inward(theta, gap, time) for of in self.harmonics or ()), 0 * theta
+            (harmonic.inward(theta, gap, time) for harmonic in self.harmonics or ()), 0 * theta
         )
 
     def fixed(self, theta: NDArray[np.float64], gap: float) -> NDArray[np.float64]:
         """The part of d(theta), m, that does not travel."""
-        stands = [of for of in self.harmonics or () if of.speed_rad_s == 0]
-        return self.scale * sum((of.inward(theta, gap) for of in stands), 0 * theta)
+        stands = [harmonic for harmonic in self.harmonics or () if harmonic.speed_rad_s == 0]
+        return self.scale * sum((harmonic.inward(theta, gap) for harmonic in stands), 0 * theta)

@@ -133,11 +133,11 @@ def refuse(path: Path, faults: Iterable[tuple[int, Fault]]) -> None:
     rows: dict[str, tuple[Fault, list[int]]] = {}
     for row, fault in faults:
         rows.setdefault(str(fault), (fault, []))[1].append(row)
-    told = [fault._replace(file=f"{path}: {_named(of)}") for fault, of in rows.values()]
-    if len(told) > LINES:
-        told[LINES:] = [Fault(f"{len(told) - LINES} more faults", file=str(path))]
-    if told:
-        raise SettingsError(*told)
+    lines = [fault._replace(file=f"{path}: {_named(numbers)}") for fault, numbers in rows.values()]
+    if len(lines) > LINES:
+        lines[LINES:] = [Fault(f"{len(lines) - LINES} more faults", file=str(path))]
+    if lines:
+        raise SettingsError(*lines)
 
 
 def _named(rows: list[int]) -> str:

@@ -90,7 +90,7 @@ class Law(Settings):
     @property
     def parameters(self) -> NamedTuple:
         """Parameters of the law as ``stress`` reads them, SI."""
-        values = {name: float(of) for name, of in self if name != "kind"}
+        values = {name: float(value) for name, value in self if name != "kind"}
         return numbers_of(*values)(**values)
 
     @property
@@ -102,7 +102,7 @@ class Law(Settings):
         return float(max(self.stress(self.parameters, eps, 0.0)[2] for eps in STRAINS))
 
     @property
-    def bears(self) -> bool:
+    def has_strength(self) -> bool:
         """Whether a rod that is strained bears any stress: not with sigma_Y and K of 0."""
         return not self.deforms or self.stress(self.parameters, PROBE, 0.0)[0] > 0.0
 
@@ -117,7 +117,9 @@ class Unloading(Law):
     @property
     def parameters(self) -> NamedTuple:
         """All numbers of the law, Pa."""
-        moduli = {name: of * self.unit_Pa for name, of in self if name not in ("kind", "unit_Pa")}
+        moduli = {
+            name: value * self.unit_Pa for name, value in self if name not in ("kind", "unit_Pa")
+        }
         return numbers_of(*moduli)(**moduli)
 
     @property

@@ -106,9 +106,9 @@ class Record(Settings):
     def grids(self) -> dict[str, tuple[Gauge, int]]:
         """Gauge of each grid, and its angle there, deg, by its name in results."""
         return {
-            f"{of.name}-{angle}" if of.rosette else of.name: (of, angle)
-            for of in self.gauges or []
-            for angle in (ROSETTE if of.rosette else ROSETTE[:1])
+            f"{gauge.name}-{angle}" if gauge.rosette else gauge.name: (gauge, angle)
+            for gauge in self.gauges or []
+            for angle in (ROSETTE if gauge.rosette else ROSETTE[:1])
         }
 
     @property
@@ -124,12 +124,14 @@ class Record(Settings):
         return [name for name, wanted in asked.items() if wanted]
 
     @checked
-    def _grids_have_names_of_their_own(self) -> None:
-        if len(self.grids) < sum(len(ROSETTE) if of.rosette else 1 for of in self.gauges or []):
+    def _grid_names_differ(self) -> None:
+        if len(self.grids) < sum(
+            len(ROSETTE) if gauge.rosette else 1 for gauge in self.gauges or []
+        ):
             raise SettingsError(
                 "two have the same name in results, where that of a rosette ends in -0, -45, -90",
                 key="gauges",
-                value=", ".join(of.name for of in self.gauges or []),
+                value=", ".join(gauge.name for gauge in self.gauges or []),
             )
 
 

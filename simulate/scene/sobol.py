@@ -129,5 +129,5 @@ def _indices(parts: dict[str, NDArray], sample: Any) -> tuple[NDArray, NDArray]:
     from scipy.stats import sobol_indices
 
     chosen = {name: part[..., sample] for name, part in parts.items()}
-    found = sobol_indices(func=chosen, n=chosen["f_A"].shape[1])
-    return np.atleast_2d(found.first_order), np.atleast_2d(found.total_order)
+    indices = sobol_indices(func=chosen, n=chosen["f_A"].shape[1])
+    return np.atleast_2d(indices.first_order), np.atleast_2d(indices.total_order)

@@ -88,10 +88,10 @@ class Points(Settings):
 
     @checked
     def _as_many_of_each(self) -> None:
-        lengths = {name: len(of) for name, of in self if of is not None}
+        lengths = {name: len(column) for name, column in self if column is not None}
         if len({*lengths.values()}) > 1:
-            found = " and ".join(f"{length} {name}" for name, length in lengths.items())
-            raise ValueError(f"{found}: give one for each")
+            counts = " and ".join(f"{length} {name}" for name, length in lengths.items())
+            raise ValueError(f"{counts}: give one for each")
 
 
 FROM_0 = ascending(", from 0 at least")
@@ -133,8 +133,8 @@ class Thermal(Points):
 
     def growth(self, Omega: float, f1: float) -> float:
         """Growth, m, at ``Omega`` (rad/s); ``f1`` in Hz."""
-        at = Omega / (2 * np.pi * f1) if self.speed_over_f1 is not None else Omega
-        return np.interp(at, self._speeds(), self.growth_m)
+        speed = Omega / (2 * np.pi * f1) if self.speed_over_f1 is not None else Omega
+        return np.interp(speed, self._speeds(), self.growth_m)
 
 
 AnyThermal = Annotated[Thermal, from_csv(Thermal, SPEEDS, GROWTHS)]

@@ -37,7 +37,7 @@ from simulate.errors.run import Run
 from simulate.marching import STATUSES, WITH_RESULT, Left, Outcome, every, strip_stiffness
 from simulate.marching.friction import growth_rate, mu_crit
 from simulate.scene import LEADING, Scene
-from simulate.scene.laws.table import Table
+from simulate.scene.laws.table import Tabulated
 
 type Entry = tuple[str | tuple[str, ...], Any, dict[str, Any]]
 
@@ -532,7 +532,7 @@ def _of_curve(run: Run) -> dict[str, Any]:
     liner, law = run.scene.liner, run.scene.liner.law
     return (
         {"curve_share": run.outcome.wear.max() / (liner.thickness_m * law.farthest)}
-        if isinstance(law, Table)
+        if isinstance(law, Tabulated)
         else {}
     )
 

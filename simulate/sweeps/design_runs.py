@@ -161,11 +161,11 @@ class Engine:
         return np.dtype([(name, of, lengths.get(name, ())) for name, (of, *_) in COLUMNS.items()])
 
     def march_row(
-        self, scene: Scene, report: Say = silent, left: float = 0.0
+        self, scene: Scene, report: Say = silent, budget: float = 0.0
     ) -> tuple[NDArray, float]:
         """Numbers of the runs of one row, speeds ascending, closed in on the peaks asked for.
 
-        And what checks of other rows may take of the steps, with what those before ``left``.
+        And the steps that checks of other rows may take, with the ``budget`` of those before.
         """
         runs, speeds = [], scene.speeds.omega(self.rom.f1).tolist()
         while speeds:
@@ -176,8 +176,8 @@ class Engine:
                 if scene.peaks
                 else []
             )
-        runs, left = checked(runs, scene.checked_share, left, report)
-        return self._table(runs), left
+        runs, budget = checked(runs, scene.checked_share, budget, report)
+        return self._table(runs), budget
 
     def _march(self, scene: Scene, Omega: float, report: Say) -> Run:
         run = march_one(set_up(scene, self.rom, Omega, self.choice), self.choice)
@@ -277,7 +277,7 @@ def march_block(
     saved, left = begun, 0.0  # steps for checks
     try:
         for count, (key, i) in enumerate(once.items(), 1):
-            new[key], left = engine.march_row(engine.scenes[i], left=left)
+            new[key], left = engine.march_row(engine.scenes[i], budget=left)
             done[key] = new[key]
             far = progress.remaining(count, len(once), monotonic() - begun)
             report(f"{_line(i + 1, done[key])}; design {far}")

@@ -183,7 +183,7 @@ def _tried(peak: Peak, case: Case, doubt: Doubt) -> Peak:
 
     def at(other: Neighbour) -> Numbers:
         runs.append(other)
-        return at_peak(case.beside(other), peak.k)
+        return at_peak(case.neighbour(other), peak.k)
 
     own = at(ITSELF)
     parts, sides = {"twin": change(own, at(TWIN))}, None

@@ -150,12 +150,12 @@ def _of_liner(liner: Liner, rom: Rom) -> list[Doubt]:
             f"liner.law: a modulus of {modulus:.3g} Pa; rubber has {SOFT:g}; moduli are in unit_Pa",
         ),
         (
-            deforms and not law.bears,
+            deforms and not law.has_strength,
             "liner.law.sigma_Y",
             "liner.law: sigma_Y and K are 0: the tip wears the liner without any force",
         ),
         (
-            deforms and sigma_Y >= E and law.bears,
+            deforms and sigma_Y >= E and law.has_strength,
             "liner.law.sigma_Y",
             f"liner.law.sigma_Y: {sigma_Y:g}: not below E = {E:g}: the liner would wear from a "
             "strain of 1 on; is it in Pa? it should be in unit_Pa, like E",

@@ -7,7 +7,7 @@ import numpy as np
 
 from geometry.blade import SOURCES, Blade, Sections
 from geometry.interface import tip_of
-from geometry.profile import Profile, profile_at
+from geometry.profile import Airfoil, profile_at
 from geometry.project import check_settings
 from geometry.tip import cartesian
 
@@ -70,7 +70,7 @@ def camber_line(path) -> np.ndarray:
     return cartesian(tip_of(facets_of(mesh, "tip"), mesh.points).camber_line())
 
 
-def height(profile: Profile, xi: np.ndarray, side: float) -> np.ndarray:
+def height(profile: Airfoil, xi: np.ndarray, side: float) -> np.ndarray:
     """Height over the chord, from the definition: camber and half the thickness to one side."""
     w = 4 * xi * (1 - xi)
     half = profile.thickness / 2 * (profile.edge + (1 - profile.edge) * w)

@@ -3,7 +3,7 @@
 import numpy as np
 
 from geometry.blade import Sections
-from geometry.profile import Profile, profile_at
+from geometry.profile import Airfoil, profile_at
 from geometry.split import KINDS
 
 TURNS = 12  # of the fixed point for the plane of a place on a cylinder; eight are to round-off
@@ -19,7 +19,7 @@ def place(sections: Sections, xi: float, eta: float, share: float) -> np.ndarray
     return 1e3 * np.array([x, *at[1:]])
 
 
-def _in_section(profile: Profile, xi: float, eta: float) -> np.ndarray:
+def _in_section(profile: Airfoil, xi: float, eta: float) -> np.ndarray:
     bow = 4 * xi * (1 - xi)
     half = profile.thickness / 2 * (profile.edge + (1 - profile.edge) * bow)
     return profile.place([xi], profile.camber * bow + eta * half)[0]

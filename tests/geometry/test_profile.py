@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from blades import height
 
-from geometry.profile import Profile, profile_at
+from geometry.profile import Airfoil, profile_at
 
-HUB = Profile(0.42, 0.066, 0.0056, 0.004, 0.25, np.radians(18), (0.001, -0.003))
+HUB = Airfoil(0.42, 0.066, 0.0056, 0.004, 0.25, np.radians(18), (0.001, -0.003))
 PROFILES = [
     pytest.param(HUB, id="hub"),
     pytest.param(replace(HUB, camber=0.02, edge=0.01), id="sharp and cambered"),

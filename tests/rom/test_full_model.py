@@ -11,7 +11,7 @@ from scipy.sparse import csr_matrix, diags, identity
 
 from fem.assemble import over_speeds
 from fem.cholesky import Cholesky
-from fem.matrices import State
+from fem.matrices import Prestressed
 from rom.full_model import MODES, solve
 from rom.modes import ModesError, ShiftInvert
 
@@ -70,12 +70,12 @@ def test_a_stiffness_is_not_kept_beyond_its_speed(constants):
             made.append(weakref.ref(K))
             gc.collect()
             alive.append(sum(K() is not None for K in made))
-            yield State(speed, K, np.zeros(N), 0.0)
+            yield Prestressed(speed, K, np.zeros(N), 0.0)
 
     assert solve(constants, states()).omega.shape == (7, MODES)
     assert max(alive) <= 2  # the new one and the last, whose factor there is
 
 
 def test_a_speed_that_is_not_stable_is_refused(constants):
-    states = [State(speed, stiffness(speed), np.zeros(N), 0.0) for speed in (0.0, 20.0)]
+    states = [Prestressed(speed, stiffness(speed), np.zeros(N), 0.0) for speed in (0.0, 20.0)]
     refused(ModesError, solve, constants, states, match="K is not positive definite")

@@ -195,13 +195,13 @@ def find_force(scheme, strips, state, step):
 def at_the_end(strips: Strips) -> Strips:
     """Rods under the tip at the end of a step, not in its middle, as far as it may wear them."""
     behind, nu = ceil(strips.advance / 2), len(strips.d)
-    beside = strips.beside + behind
-    window = min(strips.rods_covered + 1 + 2 * (beside + MARGIN), nu)
+    partly_covered = strips.partly_covered + behind
+    window = min(strips.rods_covered + 1 + 2 * (partly_covered + MARGIN), nu)
     first = strips.first + (1 - strips.placed) * strips.advance - behind
     return strips._replace(
         first=first % nu,
         d_window=np.roll(largest_over_window(strips.d, window), MARGIN),
-        beside=beside,
+        partly_covered=partly_covered,
         placed=1.0,
         w_end=np.ones(len(strips.g0)),
     )

@@ -47,7 +47,7 @@ def strips(
     of a step; ``march_exact`` moves them to its middle.
     """
     m, g0, d = ceil(length), np.atleast_1d(np.asarray(g0, float)), np.asarray(d, float)
-    beside = min(max(ceil((advance - 1) / 2), 0), max(len(d) - m, 0) // 2)
+    partly_covered = min(max(ceil((advance - 1) / 2), 0), max(len(d) - m, 0) // 2)
     first = np.zeros(len(g0)) if first is None else np.asarray(first, float)
     if not isinstance(law, RodLaw):
         of = Elastic if isinstance(law, Hooke) else Plastic
@@ -58,12 +58,12 @@ def strips(
         g0=g0,
         d=d,
         d_end=d,
-        d_window=largest_over_window(d, min(m + 1 + 2 * beside, len(d))),
-        first=(first - beside) % len(d),
+        d_window=largest_over_window(d, min(m + 1 + 2 * partly_covered, len(d))),
+        first=(first - partly_covered) % len(d),
         advance=float(advance),
         length=float(length),
         rods_covered=m,
-        beside=beside,
+        partly_covered=partly_covered,
         placed=1.0,
         w_end=np.ones(len(g0)),
         area=np.broadcast_to(np.asarray(area, float), g0.shape).copy(),

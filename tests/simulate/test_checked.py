@@ -35,7 +35,7 @@ def run_of(speed, displacement=1.0, status="ok", steps=100.0):
 def tried(monkeypatch):
     """Speeds in the order in which runs are checked; ``risks`` and runs ``wrong`` by speed."""
 
-    def of(runs, risks, share, wrong=(), left=0.0):
+    def of(runs, risks, share, wrong=(), budget=0.0):
         order = []
 
         def judge(run, check):
@@ -47,7 +47,7 @@ def tried(monkeypatch):
 
         monkeypatch.setattr(module, "judged", judge)
         monkeypatch.setattr(module, "risk", lambda run: risks[run.setup.Omega])
-        found, rest = checked(runs, share, left)
+        found, rest = checked(runs, share, budget)
         assert [run.setup.Omega for run in found] == sorted(risks)
         return order, rest
 
@@ -68,16 +68,16 @@ def test_the_largest_response_is_first_then_the_risk_within_the_share(tried):
 def test_a_run_that_stands_alone_is_checked_where_it_is_risky(tried):
     assert tried([run_of(1)], {1: 2 * RISKY}, share=0.1) == ([1], -40.0)
     assert tried([run_of(1)], {1: 0.5 * RISKY}, share=0.1) == ([], 10.0)
-    assert tried([run_of(1)], {1: 2 * RISKY}, share=0.1, left=-11.0) == ([], -1.0)
-    assert tried([run_of(1)], {1: 0.0}, share=0.1, left=40.0) == ([1], 0.0)
+    assert tried([run_of(1)], {1: 2 * RISKY}, share=0.1, budget=-11.0) == ([], -1.0)
+    assert tried([run_of(1)], {1: 0.0}, share=0.1, budget=40.0) == ([1], 0.0)
     two = [run_of(1), run_of(2)]
     assert tried(two, dict.fromkeys((1, 2), 1.0), share=0.1) == ([1], -30.0)
 
 
 def test_beside_a_wrong_run_its_neighbours_are_checked_whatever_that_takes(tried):
     runs = [run_of(speed, displacement=1.0 + (speed == 2)) for speed in RISKS]
-    order, left = tried(runs, RISKS, share=0.1, wrong=(2, 3))
-    assert order[0] == 2 and {*order} == {1, 2, 3, 4} and left == 50 - 4 * 750
+    order, budget = tried(runs, RISKS, share=0.1, wrong=(2, 3))
+    assert order[0] == 2 and {*order} == {1, 2, 3, 4} and budget == 50 - 4 * 750
 
 
 def test_runs_that_ended_early_are_not_checked(tried):

@@ -14,7 +14,7 @@ from simulate.contact.compiled import for_types_of, records
 from simulate.contact.rod_law import rod_law
 from simulate.contact.rods import (
     ROD,
-    bearing,
+    contact_force,
     cover,
     deepest_reach,
     fill,
@@ -256,7 +256,9 @@ def test_the_deepest_reach_over_a_centre_is_that_of_ten_thousand_times_in_the_st
         window = covered.rods.shape[1]
         share, reach = np.zeros((2, window))
         from_cache(reach_all, system, covered, step, w_from, w, share, reach)
-        camber = system.first[0] + system.beside + step * advance + (system.rods_covered - 1) / 2
+        camber = (
+            system.first[0] + system.partly_covered + step * advance + (system.rods_covered - 1) / 2
+        )
         off = (np.arange(nu) - camber + nu / 2) % nu - nu / 2
         x = off[:, None] - (times - 0.5) * advance  # from the camber line to each centre, rods
         s = np.clip(PITCH * x, -tip.half, tip.half)
@@ -289,7 +291,7 @@ def bearing_up_to(system, covered, w, deeper, widened):
         window = covered.rods.shape[1]
         fill(system, covered, eps_p, 0, 0, window, 0, -0.1, w, True)
         covered.strips[0].low, covered.strips[0].high = 0, window
-    return bearing(system, covered, 0, deeper)
+    return contact_force(system, covered, 0, deeper)
 
 
 @pytest.mark.parametrize("tip", [name for name in TIPS if name != "flat"])

@@ -116,9 +116,9 @@ def test_a_blade_that_touches_nothing_reads_rotation_alone(rom):
 def test_runs_of_other_models_and_at_peaks_have_no_gauges(kept, rom):
     """But those with another step, whose run may become the result."""
     run = Case(case(), rom, prepare(case(), rom, rom.omega1 * 0.3)).march()
-    coarse = run.beside(Neighbour("coarser", rom=lambda rom: coarser(rom)[0])).march()
+    coarse = run.neighbour(Neighbour("coarser", rom=lambda rom: coarser(rom)[0])).march()
     assert coarse.outcome.gauges.size == 0
-    assert np.isfinite(run.beside(QUARTER).march().outcome.gauges).all()
+    assert np.isfinite(run.neighbour(QUARTER).march().outcome.gauges).all()
     assert np.isfinite(run.outcome.gauges).all()
     twice = swept(case(twin=True, integrator=EXACT, record={"states_rounds": None}), rom)
     assert set(twice["status"].values) <= {"ok", "sensitive"}

@@ -13,7 +13,7 @@ from simulate.contact.law_check import fault
 from simulate.contact.rod_law import rod_law
 from simulate.scene import Scene
 from simulate.scene.laws.plastic import Plastic
-from simulate.scene.laws.table import Table
+from simulate.scene.laws.table import Tabulated
 from simulate.sweeps.closing_in import sweep
 from simulate.sweeps.plausible import SceneWarning
 
@@ -26,7 +26,7 @@ CURVE = {"strain": [0, 0.1, 0.3, 0.5, 0.9], "stress_Pa": [0, 0.3, 0.3, 0.7, 1.2]
 
 def table(curve, **more):
     return check_settings(
-        Table, {"kind": "table", "E": E, "unit_Pa": 1.0, "curve": curve} | more, "scene.yaml"
+        Tabulated, {"kind": "table", "E": E, "unit_Pa": 1.0, "curve": curve} | more, "scene.yaml"
     )
 
 

@@ -236,8 +236,8 @@ def beside(coarse_rom, monkeypatch):
         def march(of):
             return Run(**vars(of) | {"setup": setup}, outcome=given.pop(of.setup.name))
 
-        monkeypatch.setattr(Case, "beside", lambda of, other: replace(of, setup=other))
-        monkeypatch.setattr(Run, "beside", lambda of, other: Case(of.scene, of.rom, other))
+        monkeypatch.setattr(Case, "neighbour", lambda of, other: replace(of, setup=other))
+        monkeypatch.setattr(Run, "neighbour", lambda of, other: Case(of.scene, of.rom, other))
         monkeypatch.setattr(Case, "march", march)
         found = judged(Run(case, coarse_rom, setup, outcome=run), check=check)
         assert not given, "not marched"

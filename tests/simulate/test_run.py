@@ -29,7 +29,7 @@ def test_a_strip_covers_its_footprint(coarse_rom, integrator):
     engaged = strips.law.parameters.E * strips.area * strips.length / strips.thickness
     np.testing.assert_allclose(strip_stiffness(case.liner, places), engaged, rtol=1e-14)
     before = 0 if integrator["scheme"] == CENTRAL else strips.advance / 2
-    middle = strips.first + strips.beside + (strips.rods_covered - 1) / 2 + before
+    middle = strips.first + strips.partly_covered + (strips.rods_covered - 1) / 2 + before
     off = middle * 2 * np.pi / 4096 - coarse_rom.line(places.xi)[:, 1]
     np.testing.assert_allclose((off + np.pi) % (2 * np.pi) - np.pi, 0, atol=1e-12)
 
@@ -118,7 +118,7 @@ def beyond_casing(case, setup, outcome):
     nu, lift = rods.d.size, np.empty(u_r.shape)
     for n in range(len(lift)):
         step = (n % per_round + 1) * setup.steps // per_round + 1 - rods.placed  # its end
-        first = rods.first + rods.beside + step * rods.advance
+        first = rods.first + rods.partly_covered + step * rods.advance
         for i, place in enumerate(first + (rods.rods_covered - 1) / 2):
             ends = place + np.array([-0.5, 0.5]) * rods.length
             under = np.r_[ends[0], np.arange(np.ceil(ends[0]), ends[1]), ends[1]]

@@ -46,7 +46,7 @@ BESIDE = {  # what second runs tell, further facts, and the status that they lea
     "its twin departs": ({"twin": 1.01 * SENSITIVE_FROM}, {}, "sensitive"),
     "not by much": ({"twin": 0.99 * SENSITIVE_FROM}, {}, "ok"),
     "its twin fails": ({"twin": inf}, {}, "sensitive"),
-    "the accuracy is not met": ({"met": False}, {}, "sensitive"),
+    "the accuracy is not met": ({"accurate": False}, {}, "sensitive"),
     "its error may be too large": ({"error": 1.01 * STATED}, {}, "inaccurate"),
     "its error is stated": ({"error": STATED}, {}, "ok"),
     "no error is known": ({"error": nan}, {}, "inaccurate"),
@@ -57,9 +57,9 @@ BESIDE = {  # what second runs tell, further facts, and the status that they lea
     "sensitive, and much is lost": ({"lost": 0.04, "twin": 0.5}, {}, "sensitive"),
     "at rest": ({}, AT_REST, "no-contact"),
     "at rest, and half the step touches": ({"error": inf}, AT_REST, "inaccurate"),
-    "it lost too much": ({"twin": 0.5, "met": False}, {"ledger": LOSSY}, "inaccurate"),
-    "at rest, its accuracy not met": ({"met": False}, AT_REST, "sensitive"),
-    "it failed": ({"twin": 0.5, "error": 0.5, "met": False}, {"end": ESCAPED}, "diverged"),
+    "it lost too much": ({"twin": 0.5, "accurate": False}, {"ledger": LOSSY}, "inaccurate"),
+    "at rest, its accuracy not met": ({"accurate": False}, AT_REST, "sensitive"),
+    "it failed": ({"twin": 0.5, "error": 0.5, "accurate": False}, {"end": ESCAPED}, "diverged"),
 }
 
 

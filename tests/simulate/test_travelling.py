@@ -36,7 +36,9 @@ def travelling(nu, steps, length, gap, of, fixed=0.0, tip=FLAT, law=None, **more
     fixed = np.full(nu, fixed)
     rows = [(A, n, phase, n * speed * 2 * np.pi / steps) for A, n, phase, speed in of]
     # where the window of the strip is longer by the rods beside, so is what may be in reach
-    window = largest_over_window(fixed, min(system.rods_covered + 5 + 2 * system.beside, nu))
+    window = largest_over_window(
+        fixed, min(system.rods_covered + 5 + 2 * system.partly_covered, nu)
+    )
     return system._replace(
         d=fixed.copy(), d_end=fixed.copy(), d_window=window, waves=waves(fixed, np.array(rows))
     )

@@ -173,7 +173,7 @@ def test_at_peaks_second_runs_take_as_many_rounds_as_the_sweep(coarse_rom):
     case = case_of(runs, to_march(runs), coarse_rom, peak)
     longer = Neighbour("less damped", scene=lambda of: of.but(damping_ratio=1e-4))
     for other in (ITSELF, TWIN, longer):
-        assert case.beside(other).march().outcome.rounds == runs["rounds"][1] < 80
+        assert case.neighbour(other).march().outcome.rounds == runs["rounds"][1] < 80
 
 
 def test_a_scene_may_start_from_one_that_does_not_stop(coarse_rom):

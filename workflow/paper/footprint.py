@@ -98,7 +98,7 @@ def place(strips: Strips, rod: int) -> float:
 
     Rounded so that the footprint covers half of the rod at either end.
     """
-    wanted = rod + 0.5 - strips.beside - strips.rods_covered // 2
+    wanted = rod + 0.5 - strips.partly_covered - strips.rods_covered // 2
     first = strips.first[STRIP]
     step = round((wanted - first) % strips.d.size / strips.advance)
     return first + step * strips.advance
@@ -119,7 +119,7 @@ def footprint(
     """
     first, g0, l, law = floor(x), strips.g0[STRIP], strips.thickness, strips.law
     passed, pitch = x - first, strips.pitch[STRIP]
-    k = strips.beside + np.arange(-BESIDE, strips.rods_covered + 1 + BESIDE)
+    k = strips.partly_covered + np.arange(-BESIDE, strips.rods_covered + 1 + BESIDE)
     rods = (first + k) % strips.d.size
     s = np.array([pitch * offset(strips, i, passed) for i in k])
     part = np.array([covered_part(strips, i, passed) for i in k])

@@ -38,7 +38,7 @@ def changes(single: Run, reference: Marched | None) -> Row:
     numbers = errors(single, reference)
     if reference is not None:
         return numbers
-    twin = single.beside(TWIN).march()
+    twin = single.neighbour(TWIN).march()
     return numbers | {"largest": max(differences(single, twin).values())}
 
 

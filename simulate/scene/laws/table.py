@@ -66,7 +66,7 @@ class Curve(Points):
             raise ValueError("stress is 0 throughout")
 
 
-class Table(Unloading):
+class Tabulated(Unloading):
     """Law of a measured compression curve, with wear."""
 
     kind: Literal["table"] = Field(

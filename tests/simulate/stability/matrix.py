@@ -27,7 +27,7 @@ from rom.model import Rom
 from simulate.errors.checked import checked
 from simulate.errors.neighbour import Neighbour
 from simulate.errors.neighbours import judged
-from simulate.errors.observables import Observables, apart, observables
+from simulate.errors.observables import Observables, observables, relative_differences
 from simulate.errors.resolution import check_resolution, risk
 from simulate.errors.run import Case as Marched, Run
 from simulate.marching import (
@@ -129,7 +129,7 @@ def _by(scheme: str, of: Ready, times: int) -> Run:
     # steps_per_round is replaced by the steps of the set-up
     of_scheme = by(scheme=scheme, steps_per_round=SAMPLES, mass_scaling_hz=scaled)
     case = replace(of.case, scene=of.case.scene.but(integrator=of_scheme))
-    return case.beside(Neighbour("a reference", steps=times)).march()
+    return case.neighbour(Neighbour("a reference", steps=times)).march()
 
 
 @dataclass(frozen=True)
@@ -215,7 +215,10 @@ def _against(exact: Sequence[Run], run: Run) -> dict[str, Any]:
     if not exact:
         return {"error": {}, "spread": {}, "accurate": None}
     own, one, other = map(observables, (run, *exact))
-    error, spread = apart(own, _nearest(own, one, other)), apart(one, other)
+    error, spread = (
+        relative_differences(own, _nearest(own, one, other)),
+        relative_differences(one, other),
+    )
     usable = all(of.outcome.status in TO_THE_END for of in exact)  # checked by their difference
     known = usable and max(spread.values()) <= STATED
     accurate = max(error.values()) <= STATED if known else None
