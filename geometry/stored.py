@@ -37,14 +37,16 @@ def stored(
     another; of symmetric ones the upper triangle. ``default_factory``: as of ``dataclasses.field``.
     """
     dims = tuple(dimensions.split())
-    metadata = {
-        "dims": dims,
-        "symmetric": len(dims) > 1 and dims[-1] == f"{dims[-2]}_",
-        "sparse": sparse,
-        "attrs": {"units": units, **attributes},
-        "may_be_nan": may_be_nan,
-    }
-    return field(default_factory=default_factory, metadata=metadata)
+    return field(
+        default_factory=default_factory,
+        metadata={
+            "dims": dims,
+            "symmetric": len(dims) > 1 and dims[-1] == f"{dims[-2]}_",
+            "sparse": sparse,
+            "attrs": {"units": units, **attributes},
+            "may_be_nan": may_be_nan,
+        },
+    )
 
 
 @dataclass_transform(frozen_default=True, field_specifiers=(stored,))

@@ -84,8 +84,10 @@ def by_rounds(
     (Omega,) = scene.speeds.omega(rom.f1)
     check_scene(scene, rom)
     first = before(scene, rom, start)(Omega)
-    record = {"samples_per_round": scene.record.samples_per_round, "end": True}
-    one = scene.but(rounds=1, record=Record(**record, history={"chord": [LEADING]}))
+    record = Record(
+        samples_per_round=scene.record.samples_per_round, end=True, history={"chord": [LEADING]}
+    )
+    one = scene.but(rounds=1, record=record)
     setup = prepare(one, rom, Omega)
     outcomes: list[Outcome] = []
     while len(outcomes) < scene.rounds and (not outcomes or outcomes[-1].left):

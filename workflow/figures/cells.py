@@ -61,16 +61,22 @@ def draw(
         limits = min(0.0, frame[value].min()), None
     height = FOOTER + ceil(len(panels) / 2) * (HEADER + LINE * lines * len(rows))
     drawn = style.panels(len(panels), style.DOUBLE, height)
-    look = {
-        "text": text,
-        "bold": bold,
-        "labels": labels,
-        "colours": style.MAP if log else style.MAP_FROM_ZERO,
-        "scale": (LogNorm if log else Normalize)(*limits or (None, None)),
-    }
+    scale = (LogNorm if log else Normalize)(*limits or (None, None))
     for axes, (name, these) in zip(drawn.axes, panels.items(), strict=True):
-        panel_records = these.to_dict("records")
-        image = matrix(axes, panel_records, x, y, value, [*columns], [*rows], **look)
+        image = matrix(
+            axes,
+            these.to_dict("records"),
+            x,
+            y,
+            value,
+            [*columns],
+            [*rows],
+            text=text,
+            bold=bold,
+            labels=labels,
+            colours=style.MAP if log else style.MAP_FROM_ZERO,
+            scale=scale,
+        )
         axes.set_title(labelled(labels, name), fontweight="bold")
         axes.set(xlabel=labels.get(x, ""), ylabel=labels.get(y, ""))
         axes.xaxis.set_label_position("top")
@@ -78,9 +84,15 @@ def draw(
         axes.tick_params(labeltop=True, labelbottom=False, labelsize=7)
         axes.tick_params(axis="x", rotation=90 if len(columns) > UPRIGHT else 0)
         axes.spines[:].set_visible(False)
-    extend = "both" if limits and log else "neither"
-    bar = {"location": "bottom", "aspect": 60, "extend": extend, "format": "{x:g}"}
-    drawn.colorbar(image, ax=drawn.axes, label=labelled(labels, value), **bar)
+    drawn.colorbar(
+        image,
+        ax=drawn.axes,
+        label=labelled(labels, value),
+        location="bottom",
+        aspect=60,
+        extend="both" if limits and log else "neither",
+        format="{x:g}",
+    )
     return drawn
 
 
@@ -118,7 +130,12 @@ def matrix(
         shown = record[text] if text else number_in(record[value], unknown="")
         if shown:
             dark = np.dot(GREY_WEIGHTS, faces[row, column, :3]) < DARK
-            weight = "bold" if bold and record[bold] else "normal"
-            look = {"color": "white" if dark else style.BLACK, "fontweight": weight}
-            axes.text(column, row, shown, **look, **WRITTEN)
+            axes.text(
+                column,
+                row,
+                shown,
+                color="white" if dark else style.BLACK,
+                fontweight="bold" if bold and record[bold] else "normal",
+                **WRITTEN,
+            )
     return image

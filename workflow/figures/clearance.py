@@ -76,8 +76,9 @@ def _shape(
     axes.plot(theta, height(d), label="casing, distorted", **CASING)
     axes.plot(theta, height(none), label="casing, undistorted", **ROUND)
     axes.plot(theta, height(gap), label=f"tip of undeformed blade, {style.PLACE}", **TIP)
-    closed = {"where": d > 1, "label": "gap closed by the casing alone"}
-    axes.fill_between(theta, height(gap), height(d), **closed, **CLOSED)
+    axes.fill_between(
+        theta, height(gap), height(d), d > 1, label="gap closed by the casing alone", **CLOSED
+    )
 
 
 @style.styled

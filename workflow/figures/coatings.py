@@ -53,8 +53,9 @@ def peaks(grid: Case, order: int = 4) -> Figure:
             }
             for case in cases
         ]
-        look = {"columns": grid["E"], "rows": grid["K"][::-1], "text": "text", "bold": "bold"}
-        image = cells.matrix(axes, records, "E", "K", "number", **look)
+        image = cells.matrix(
+            axes, records, "E", "K", "number", grid["E"], grid["K"][::-1], text="text", bold="bold"
+        )
         drawn.colorbar(image, ax=axes, pad=0.01, aspect=15, ticks=MaxNLocator(5), label=label)
         axes.set_ylabel(COATINGS["K"])
     panels[0].set_title(rf"amplitude of the peak of EO {order} at {style.PLACE}, {style.OVER_GAP}")
@@ -81,8 +82,15 @@ def predictability(grid: Case) -> Figure:
     states = ", ".join(f"{mark} {state}" for state, mark in STATES.items())
     orders = " and ".join(map(str, grid["orders"]))
     said = f"share of runs that are not ok (%)\npeaks of EO {orders}: {states}"
-    look = {"text": "text", "labels": COATINGS | {"not ok": said}, "limits": (0, 100)}
-    drawn = cells.draw([case | _cell(case) for case in cases], "E", "K", "not ok", **look)
+    drawn = cells.draw(
+        [case | _cell(case) for case in cases],
+        "E",
+        "K",
+        "not ok",
+        text="text",
+        labels=COATINGS | {"not ok": said},
+        limits=(0, 100),
+    )
     drawn.axes[0].set_title(_totals(grid))
     return drawn
 

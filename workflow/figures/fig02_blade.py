@@ -154,9 +154,16 @@ def _hats(axes: Axes, nodes: NDArray[np.float64]) -> None:
         xlabel=r"chord fraction $\xi$",
         ylabel=f"{len(nodes)} patches",
     )
-    handles = axes.get_legend_handles_labels()[0][::-1]
-    place = {"loc": "lower right", "bbox_to_anchor": (1.02, 0.98), "ncols": 2, "fontsize": 6.5}
-    axes.legend(handles=handles, handlelength=1.0, handletextpad=0.5, columnspacing=0.8, **place)
+    axes.legend(
+        handles=axes.get_legend_handles_labels()[0][::-1],
+        loc="lower right",
+        bbox_to_anchor=(1.02, 0.98),
+        ncols=2,
+        fontsize=6.5,
+        handlelength=1.0,
+        handletextpad=0.5,
+        columnspacing=0.8,
+    )
 
 
 def _sides(axes: Axes, nodes: NDArray[np.float64]) -> None:

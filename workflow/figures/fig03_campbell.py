@@ -59,8 +59,14 @@ def draw(
     texts = {name: "\n".join(margins.nearest(campbell, rows, name, "crossing")) for name in lines}
     operating_lines(drawn, first, rom.f1, lines, texts)
     operating_lines(None, every, rom.f1, lines)
-    opaque = {"frameon": True, "framealpha": 1.0, "edgecolor": "none"}
-    first.legend(loc="lower right", handlelength=1.2, borderaxespad=0.3, **opaque)
+    first.legend(
+        loc="lower right",
+        handlelength=1.2,
+        borderaxespad=0.3,
+        frameon=True,
+        framealpha=1.0,
+        edgecolor="none",
+    )
     _state_error(every, rom, check)
     units.show(first.yaxis, style.beside, *both["frequency"])
     units.show(every.yaxis, lambda *_: None, *both["frequency"])  # modes are named at the right
@@ -78,13 +84,18 @@ def _frequencies(
     speeds, reduced = frequencies_over_speed(rom, modes)
     unit = rom.omega1
     axes.plot(speeds, reduced, color=style.BLACK, label=f"reduced model, $n$ = {rom.n}")
-    look = {"color": style.BLUE, "markerfacecolor": "white", "label": "full model"}
-    axes.plot(check.speeds / unit, check.full[:, :modes] / unit, "o", **look)
+    axes.plot(
+        check.speeds / unit,
+        check.full[:, :modes] / unit,
+        "o",
+        color=style.BLUE,
+        markerfacecolor="white",
+        label="full model",
+    )
     if beyond:
         further = np.linspace(1, BEYOND) * speeds[-1]
         ahead = np.array([rom.beyond(1)(speed * unit)[:modes] / unit for speed in further])
-        look = {"color": style.BLACK, "linestyle": (0, (2, 1)), "label": "extrapolated"}
-        axes.plot(further, ahead, **look)
+        axes.plot(further, ahead, color=style.BLACK, linestyle=(0, (2, 1)), label="extrapolated")
         speeds, reduced = further, np.vstack([reduced, ahead])
     axes.set_xlim(0, speeds[-1])
     return reduced
@@ -107,29 +118,34 @@ def _crossings(
         if speed <= axes.get_xlim()[1]
     ]
     axes.plot(*np.reshape(places, (-1, 2)).T, label="crossing and its speed", **OURS)
-    look = {
-        "color": style.VERMILLION,
-        "ha": "right",
-        "va": "bottom",
-        "rotation": -40,
-        "bbox": BEHIND,
-    }
     for place in places:
         speed, *_ = unit.number.format(unit.scale * place[0]).split()
-        style.note(axes, place, speed, (0, 2), **look)
+        style.note(
+            axes,
+            place,
+            speed,
+            (0, 2),
+            color=style.VERMILLION,
+            ha="right",
+            va="bottom",
+            rotation=-40,
+            bbox=BEHIND,
+        )
 
 
 def _printed(axes: Axes) -> None:
     """Mark the crossings that the paper prints, with half a digit to both sides."""
     speeds = np.array([*CROSSING.values()])
     orders = np.array([*CROSSING])
-    look = {
-        "fmt": "none",
-        "ecolor": style.BLUE,
-        "elinewidth": 2.0,
-        "label": "crossings in the paper",
-    }
-    axes.errorbar(speeds, orders * speeds, xerr=HALF_DIGIT, **look)
+    axes.errorbar(
+        speeds,
+        orders * speeds,
+        xerr=HALF_DIGIT,
+        fmt="none",
+        ecolor=style.BLUE,
+        elinewidth=2.0,
+        label="crossings in the paper",
+    )
 
 
 def _state_error(axes: Axes, rom: Rom, check: RomCheck) -> None:

@@ -89,9 +89,9 @@ def _compared(axes: Axes) -> None:
     """Draw the laws loaded to the same stresses: softer laws reach larger strains."""
     for law, (dashes, colour) in zip(COMPARED, LINES, strict=True):
         path = loop(law, tuple(strain_at(law, stress) for stress in STRESSES))
+        # reloading repeats unloading: not drawn
         strain, stress = (np.delete(branches, RELOADING, axis=0) for branches in path)
-        look = {"linestyle": dashes, "color": colour}  # reloading repeats unloading: not drawn
-        axes.plot(PERCENT * strain.ravel(), stress.ravel(), **look)
+        axes.plot(PERCENT * strain.ravel(), stress.ravel(), linestyle=dashes, color=colour)
         peak = (PERCENT * strain.max(), stress.max())
         style.note(axes, peak, _name(law), (0, 4), ha="center")
     axes.set(

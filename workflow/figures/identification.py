@@ -73,8 +73,17 @@ def together(shares: Mapping[str, Any]) -> Figure:
     """
     drawn = {name: shares[name][MODULUS] for name in TITLES if name in shares}
     records = [cell for name, part in drawn.items() for cell in _cells(name, part)]
-    look = {"text": "text", "bold": "alone", "panel": "of", "limits": (0, 100)}
-    return cells.draw(records, "other", "one", "share", labels=TITLES | {"share": SHARE}, **look)
+    return cells.draw(
+        records,
+        "other",
+        "one",
+        "share",
+        text="text",
+        bold="alone",
+        panel="of",
+        labels=TITLES | {"share": SHARE},
+        limits=(0, 100),
+    )
 
 
 def _cells(name: str, shares: Mapping[str, Any]) -> Iterator[dict[str, Any]]:

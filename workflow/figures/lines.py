@@ -59,8 +59,9 @@ def draw(
     width = style.SINGLE if len(panels) == 1 else style.DOUBLE
     lines = [*split(records, line)] if line else []
     height = FOOTER + KEY * len(lines) + ROW * len(down)
-    shared = {"sharex": "col", "sharey": "row", "squeeze": False}
-    drawn, grid = style.subplots(width, height, len(down), len(panels), **shared)
+    drawn, grid = style.subplots(
+        width, height, len(down), len(panels), sharex="col", sharey="row", squeeze=False
+    )
     for row, quantity in zip(grid, down, strict=True):
         for axes, these in zip(row, panels.values(), strict=True):
             curves(axes, these, x, quantity, line, labels, looks)

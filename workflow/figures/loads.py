@@ -74,8 +74,14 @@ def loads_of(
     }
     opening = float(mean_opening(np.ones((len(width), 1)), width, radius))
     volume = float(worn_volume(np.ones((len(width), 1)), width, radius))
-    fields = results["scene"], response.speeds, with_result, results["peaks"], opening / volume
-    return Loads(*fields, scene.no_torque)
+    return Loads(
+        name=results["scene"],
+        speeds=response.speeds,
+        lines=with_result,
+        peaks=results["peaks"],
+        opening_per_volume=opening / volume,
+        no_torque=scene.no_torque,
+    )
 
 
 def _shaft_work(ledger: xr.DataArray) -> NDArray[np.float64]:

@@ -70,8 +70,10 @@ def operating_lines(
     """
     handles, labels = [], []
     for (name, rpm), dashes in zip(lines.items(), OPERATING, strict=False):
-        look = {"color": style.GREEN, "linestyle": dashes, "linewidth": 1.2, "zorder": 1.5}
-        handles.append(axes.axvline(rpm / (RPM_PER_HZ * f1_Hz), **look))
+        speed = rpm / (RPM_PER_HZ * f1_Hz)
+        handles.append(
+            axes.axvline(speed, color=style.GREEN, linestyle=dashes, linewidth=1.2, zorder=1.5)
+        )
         labels.append(texts.get(name, f"{name} {rpm:.0f} rpm"))
     if handles and drawn:
         drawn.legend(handles, labels, loc="outside lower right", handlelength=2.5)
@@ -102,9 +104,17 @@ def _row(axes: Axes, height: float, face: str, title: str, speeds: dict[int, flo
     """Draw a triangle and k at the speed of each engine order, with the row's title at the left."""
     across = axes.get_xaxis_transform()
     axes.text(0.005, height, f"{title}, EO", transform=axes.transAxes, fontsize=7, va="center")
-    look = {"color": style.BLACK, "markerfacecolor": face, "markersize": 4, "clip_on": False}
-    places = list(speeds.values())
-    axes.plot(places, [height] * len(places), "v", transform=across, label=title, **look)
+    axes.plot(
+        [*speeds.values()],
+        [height] * len(speeds),
+        "v",
+        transform=across,
+        label=title,
+        color=style.BLACK,
+        markerfacecolor=face,
+        markersize=4,
+        clip_on=False,
+    )
     for k, speed in speeds.items():
         style.note(axes, (speed, height), str(k), (0, 3.5), xycoords=across, ha="center")
 

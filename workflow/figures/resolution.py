@@ -27,8 +27,9 @@ SAID = {"x": 0.5, "y": 0.97, "ha": "center", "va": "top", "fontsize": 7}
 def wear(coarse: Response, fine: Response) -> Figure:
     """One panel for each speed: worn depth over the casing angle, both densities."""
     number = len(coarse.speeds)
-    shared = {"letters": True, "sharex": True, "squeeze": False}
-    drawn, panels = style.subplots(style.SINGLE, 0.7 + 1.45 * number, number, **shared)
+    drawn, panels = style.subplots(
+        style.SINGLE, 0.7 + 1.45 * number, number, letters=True, sharex=True, squeeze=False
+    )
     for i, axes in enumerate(panels[:, 0]):
         depths = [run.wear[i] for run in (coarse, fine)]
         for run, depth, look in zip((coarse, fine), depths, LOOKS[::2], strict=True):

@@ -99,8 +99,17 @@ def _map(
     orders = style.edges(orders[:bins])
     across = np.broadcast_to(speeds[:, None], (len(speeds), len(orders)))
     unit, _ = response.units["length"]
-    bar = {"label": f"{label} {unit.label}", "extend": "both", "pad": 0.0, "aspect": 30}
-    style.log_map(axes, across, np.outer(speeds, orders), unit.scale * amplitudes, scale, **bar)
+    style.log_map(
+        axes,
+        across,
+        np.outer(speeds, orders),
+        unit.scale * amplitudes,
+        scale,
+        label=f"{label} {unit.label}",
+        extend="both",
+        pad=0.0,
+        aspect=30,
+    )
     axes.set(ylim=(0, highest), xlim=style.limits(response.speeds))
 
 
@@ -114,8 +123,15 @@ def _overlay(axes: Axes, response: Response) -> None:
         label.set_visible(k in NAMED and label.xy[0] >= axes.get_xlim()[0])
     peaks = [(peak.Omega_c, peak.k * peak.Omega_c) for peak in response.peaks]
     if peaks:
-        ring = {"color": style.BLACK, "markerfacecolor": "none", "markersize": 7}
-        axes.plot(*zip(*peaks, strict=True), "o", clip_on=False, label="peaks of (b)", **ring)
+        axes.plot(
+            *zip(*peaks, strict=True),
+            "o",
+            clip_on=False,
+            label="peaks of (b)",
+            color=style.BLACK,
+            markerfacecolor="none",
+            markersize=7,
+        )
     axes.legend(loc="upper left")
 
 
@@ -188,8 +204,12 @@ def of_gauge(sweep: Response, operating: Mapping[str, Any] = NO_LINES) -> Figure
     first = sweep.sweep["gauge_strain"].isel(gauge=0)
     amplitudes = (SPEED, "bin"), [spectrum(motion) for motion in first.values]
     strains = sweep.sweep.assign(spectrum=amplitudes).assign_attrs(gap_m=STRAIN)
-    look = {"label": f"strain, gauge {first['gauge'].item()}", "highest": SHOWN_STRAIN}
-    return over_speeds(Strain(strains, sweep.rom), operating=operating, **look)
+    return over_speeds(
+        Strain(strains, sweep.rom),
+        operating=operating,
+        label=f"strain, gauge {first['gauge'].item()}",
+        highest=SHOWN_STRAIN,
+    )
 
 
 def gauges_csv(sweep: Sweep) -> str:
@@ -250,19 +270,32 @@ def _spectrogram(axes: Axes, response: Response, peak: Peak) -> None:
     time, orders, amplitude = spectrogram(response.u_r[peak.index], samples, WINDOW, SLICES)
     frequency = orders * peak.Omega_c
     shown = frequency <= HIGHEST
-    edges = style.edges(time), style.edges(frequency[shown])
-    bar = {"label": f"amplitude {style.OVER_GAP}", "extend": "both", "pad": 0.01}
-    style.log_map(axes, *edges, amplitude[shown], AMPLITUDES, **bar)
+    style.log_map(
+        axes,
+        style.edges(time),
+        style.edges(frequency[shown]),
+        amplitude[shown],
+        AMPLITUDES,
+        label=f"amplitude {style.OVER_GAP}",
+        extend="both",
+        pad=0.01,
+    )
 
 
 def _mark_modes(axes: Axes, modes: NDArray[np.float64]) -> None:
     """Label the natural frequencies at the right edge, without overlap."""
-    line = {"arrowstyle": "-", "linewidth": 0.6, "shrinkA": 0, "shrinkB": 0}
-    look = {"xycoords": "axes fraction", "textcoords": "axes fraction", "va": "center"}
     labels = spread(modes / HIGHEST, APART)
     for m, (frequency, label) in enumerate(zip(modes, labels, strict=True), start=1):
-        point = (1.0, frequency / HIGHEST)
-        axes.annotate(rf"$f_{m}$", point, (1.02, label), arrowprops=line, fontsize=7.5, **look)
+        axes.annotate(
+            rf"$f_{m}$",
+            (1.0, frequency / HIGHEST),
+            (1.02, label),
+            xycoords="axes fraction",
+            textcoords="axes fraction",
+            arrowprops={"arrowstyle": "-", "linewidth": 0.6, "shrinkA": 0, "shrinkB": 0},
+            fontsize=7.5,
+            va="center",
+        )
 
 
 def spread(places: NDArray[np.float64], distance: float) -> NDArray[np.float64]:

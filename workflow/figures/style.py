@@ -89,8 +89,16 @@ def subplots(
 def panels(number: int, width: float, height: float, columns: int = 2) -> Figure:
     """Figure, size in inches, with lettered panels on equal axes, at most so many in a row."""
     across = min(columns, number)
-    shared = {"letters": number > 1, "sharex": True, "sharey": True, "squeeze": False}
-    drawn, grid = subplots(width, height, ceil(number / across), across, **shared)
+    drawn, grid = subplots(
+        width,
+        height,
+        ceil(number / across),
+        across,
+        letters=number > 1,
+        sharex=True,
+        sharey=True,
+        squeeze=False,
+    )
     for axes in grid.flat[number:]:
         axes.remove()
     return drawn
@@ -158,8 +166,9 @@ def log_map(
     """
     axes.set_facecolor(NO_RUN)
     seen = np.ma.maximum(values, scale[0] / 10)  # a logarithm of 0 would be no number
-    colours = {"norm": LogNorm(*scale), "cmap": MAP.with_extremes(under="white", bad=NO_RUN)}
-    axes.figure.colorbar(axes.pcolormesh(x, y, seen, rasterized=True, **colours), ax=axes, **bar)
+    colours = MAP.with_extremes(under="white", bad=NO_RUN)
+    mesh = axes.pcolormesh(x, y, seen, norm=LogNorm(*scale), cmap=colours, rasterized=True)
+    axes.figure.colorbar(mesh, ax=axes, **bar)
 
 
 def decades(largest: float, count: int) -> tuple[float, float]:

@@ -101,8 +101,16 @@ def steps(study: Sequence[ExperimentRow]) -> Figure:
     unsure = with_floor(other)
     records = shown(tried, unsure)
     records["panel"] = [title(study, name) for name in records["scene"]]
-    look = {"line": "scheme", "panel": "panel", "labels": LABELS, "log": "xy"}
-    drawn = lines.draw(records, "cpu_s", JUDGED, looks=LOOKS, **look)
+    drawn = lines.draw(
+        records,
+        "cpu_s",
+        JUDGED,
+        line="scheme",
+        panel="panel",
+        labels=LABELS,
+        log="xy",
+        looks=LOOKS,
+    )
     _shade(drawn, unsure, JUDGED)
     return drawn
 
@@ -130,8 +138,13 @@ def shown(runs: pd.DataFrame, unsure: pd.DataFrame) -> pd.DataFrame:
     """
     floor, names = unsure.loc[FLOOR], runs["names"].str
     errors = (100 * runs[floor.index].replace(inf, nan)).clip(lower=floor, axis="columns")
-    about = {"scheme": runs["settings"].map(scheme_of), "steps": runs["numbers"].str["steps"]}
-    described = runs.assign(**errors, **about, model=names[0], rods=names[-1])
+    described = runs.assign(
+        **errors,
+        scheme=runs["settings"].map(scheme_of),
+        steps=runs["numbers"].str["steps"],
+        model=names[0],
+        rods=names[-1],
+    )
     return described.sort_values(["scene", "scheme", "steps"])
 
 
@@ -160,8 +173,17 @@ def changes(study: Sequence[ExperimentRow], groups: Sequence[str] = ("feature",)
         for row in changed.to_dict("records")
         for key in columns
     ]
-    look = {"panel": "scene", "labels": COLUMNS | {"change": SAID}, "limits": SHOWN, "log": True}
-    return cells.draw(records, "of", "row", "change", text="text", **look)
+    return cells.draw(
+        records,
+        "of",
+        "row",
+        "change",
+        text="text",
+        panel="scene",
+        labels=COLUMNS | {"change": SAID},
+        limits=SHOWN,
+        log=True,
+    )
 
 
 def _cell(key: str, value: float) -> dict[str, Any]:

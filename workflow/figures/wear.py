@@ -35,8 +35,17 @@ def over_speeds(sweep: Response, printed: str | None = None) -> Figure:
     scale = style.decades(worn.max(), DECADES)
     speeds, depths = style.over_speeds(sweep.speeds, worn)
     angles = np.linspace(0, 360, depths.shape[1] + 1)
-    bar = {"label": LABEL + unit.label, "extend": "min", "pad": 0.01, "aspect": 25}
-    style.log_map(top, speeds, angles, depths.T, scale, **bar)
+    style.log_map(
+        top,
+        speeds,
+        angles,
+        depths.T,
+        scale,
+        label=LABEL + unit.label,
+        extend="min",
+        pad=0.01,
+        aspect=25,
+    )
     top.set(ylabel=CASING_ANGLE, ylim=(0, 360), yticks=range(0, 361, 90))
     _below(depth, lobes, sweep)
     depth.set_ylim(scale)
@@ -76,8 +85,15 @@ def _printed(axes: Axes, response: Response, part: str) -> None:
         *((speed, off) for speed in response.speeds[response.has_result][[0, -1]]),
         *((speeds[k], k) for k in orders if k in speeds),
     ]
-    square = {"markersize": 6, "markerfacecolor": "none", "color": style.VERMILLION}
-    axes.plot(*zip(*points, strict=True), "s", label="lobes in the paper", clip_on=False, **square)
+    axes.plot(
+        *zip(*points, strict=True),
+        "s",
+        label="lobes in the paper",
+        clip_on=False,
+        markersize=6,
+        markerfacecolor="none",
+        color=style.VERMILLION,
+    )
     axes.legend(loc="upper center", ncols=2, handletextpad=0.2, borderaxespad=0.1)
 
 
@@ -111,5 +127,13 @@ def _nearest(axes: Axes, response: Response) -> None:
     """Mark the angles at which the casing is closest to the blade."""
     inward = response.scene.casing.inward(np.radians(DEGREES), leading_gap(response.sweep))
     nearest = DEGREES[find_peaks(inward)[0]]
-    look = {"color": style.GREY, "linestyle": ":", "linewidth": 0.8, "label": "casing nearest"}
-    axes.vlines(nearest, 0, 1, transform=axes.get_xaxis_transform(), **look)
+    axes.vlines(
+        nearest,
+        0,
+        1,
+        transform=axes.get_xaxis_transform(),
+        color=style.GREY,
+        linestyle=":",
+        linewidth=0.8,
+        label="casing nearest",
+    )

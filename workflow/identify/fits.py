@@ -81,9 +81,11 @@ def _posterior(
     """Numbers of a posterior; its medoid is one of the points whose EO 4 peaks agree."""
     supported, ranges, draws = agrees & (sample.weights > 0), None, []
     if sample.effective >= ENOUGH:
-        by = {"weights": sample.weights, "method": "inverted_cdf"}
         ranges = {
-            name: np.quantile(samples, LEVELS, **by).tolist() for name, samples in values.items()
+            name: np.quantile(
+                samples, LEVELS, weights=sample.weights, method="inverted_cdf"
+            ).tolist()
+            for name, samples in values.items()
         }
         draws = systematic(sample.weights, DRAWS, np.random.default_rng(SEED)).tolist()
     return {

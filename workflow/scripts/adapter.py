@@ -158,8 +158,7 @@ def _watch(outside: int, snakemake: Any) -> subprocess.Popen:
     inputs = [*map(str, snakemake.input), str(snakemake.params.get("blade") or "settings")]
     reads = [path for path in inputs if not path.endswith(".py")]
     shown = ", ".join(reads[:NAMED]) + (", ..." if reads[NAMED:] else "")
-    words = snakemake.rule, str(snakemake.log[0]), shown
-    command = ["sh", "-c", WATCH, "sh", *words]
+    command = ["sh", "-c", WATCH, "sh", snakemake.rule, str(snakemake.log[0]), shown]
     return subprocess.Popen(command, stdin=subprocess.PIPE, stderr=outside)
 
 

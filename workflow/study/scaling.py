@@ -102,8 +102,9 @@ def draw(study: Sequence[Row]) -> Figure:
     """Above CPU time, below peak memory, of each stage over the quantity that sets it."""
     shown = [row for panel in PANELS for row in study if row.get("panel") == panel]
     records = [record for row in shown for record in _records(row)]
-    look = {"line": "line", "panel": "panel", "labels": AXES, "log": "xy"}
-    drawn = lines.draw(records, "x", ["seconds", "peak_MB"], **look)
+    drawn = lines.draw(
+        records, "x", ["seconds", "peak_MB"], line="line", panel="panel", labels=AXES, log="xy"
+    )
     for axes, label in zip(drawn.axes[len(PANELS) :], PANELS.values(), strict=True):
         axes.set_xlabel(label)
     return drawn

@@ -99,8 +99,12 @@ def draw(study: Mapping[str, Any]) -> Figure:
         .assign(panel=panel)
         for panel, (rows, names) in panels.items()
     )
-    labels = {"E": "modulus $E$ of the liner, paper's unit", "step": "time step $h$, µs"}
-    look = {"line": "of", "panel": "panel", "labels": labels, "log": "xy"}
     return lines.draw(
-        shown.assign(step=units.MICRO * shown["step"].astype(float)), "E", "step", **look
+        shown.assign(step=units.MICRO * shown["step"].astype(float)),
+        "E",
+        "step",
+        line="of",
+        panel="panel",
+        labels={"E": "modulus $E$ of the liner, paper's unit", "step": "time step $h$, µs"},
+        log="xy",
     )
