@@ -15,10 +15,6 @@ STATUS = Path("/proc/self/status")  # of Linux; `VmHWM`: the largest memory of t
 USED = re.compile(r"^used (?P<seconds>[\d.]+) s of CPU, (?P<peak_MB>\d+) MB at most$", re.MULTILINE)
 
 
-class UsageError(UserError):
-    """A log without CPU time and memory of its job."""
-
-
 def cpu_time() -> float:
     """CPU time of this process and of those that it has waited for, s."""
     return sum(os.times()[:4])
@@ -40,12 +36,12 @@ def read_usage(log: str | Path) -> dict[str, float]:
 
     Raises
     ------
-    UsageError
+    UserError
         When the log does not have them.
     """
     uses = list(USED.finditer(Path(log).read_text()))
     if not uses:
-        raise UsageError(
+        raise UserError(
             f"{log}: holds no time and memory of its job (older version): delete it, and the job "
             "runs again"
         )
@@ -56,5 +52,5 @@ def cpu_seconds(log: str | Path, otherwise: float = 0.0) -> float:
     """CPU time of the last job that wrote the log, s; ``otherwise`` where the log has none."""
     try:
         return read_usage(log)["seconds"]
-    except (OSError, UsageError):  # no log yet, or of an older version or a job that has failed
+    except (OSError, UserError):  # no log yet, or of an older version or a job that has failed
         return otherwise

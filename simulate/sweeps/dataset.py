@@ -34,7 +34,7 @@ from simulate.errors.loads import torque_of_rounds
 from simulate.errors.neighbours import GAP_CHANGE
 from simulate.errors.observables import NUMBERS, last_spectrum
 from simulate.errors.run import Run
-from simulate.marching import STATUSES, WITH_RESULT, Left, Outcome, every, strip_stiffness
+from simulate.marching import STATUSES, WITH_RESULT, Left, every, strip_stiffness
 from simulate.marching.friction import growth_rate, mu_crit
 from simulate.scene import LEADING, Scene
 from simulate.scene.laws.table import Tabulated
@@ -445,9 +445,10 @@ def over_f1(Omega: NDArray[np.float64], rom: Rom) -> NDArray[np.float64]:
 
 
 def _of_march(run: Run) -> dict[str, Any]:
-    """Variables of every run."""
+    """Variables of every run: its set-up, how it ended, and numbers of its revolutions."""
     setup, outcome = run.setup, run.outcome
     here, nu = np.array([setup.Omega]), len(setup.strips.d)
+    largest, number = outcome.each.largest
     return {
         SPEED: over_f1(here, run.rom),
         "speed": here,
@@ -467,13 +468,6 @@ def _of_march(run: Run) -> dict[str, Any]:
         "steps_per_round": setup.steps,
         "contact_share": outcome.contact_share,
         "seconds": run.seconds,
-    } | _of_rounds(outcome)
-
-
-def _of_rounds(outcome: Outcome) -> dict[str, Any]:
-    """Numbers of every revolution, and whether the motion is steady."""
-    largest, number = outcome.each.largest
-    return {
         "trend": outcome.trend,
         "time_constant": outcome.time_constant,
         "displacement": largest,
@@ -517,7 +511,7 @@ def _asked_for(run: Run) -> dict[str, Any]:
         (record.motion, _of_motion),
         (record.gauges, _of_gauges),
         (scene.contact.friction, _of_friction),
-        (True, _of_curve),
+        (isinstance(scene.liner.law, Tabulated), _of_curve),
     )
     return {name: of for wanted, make in made if wanted for name, of in make(run).items()}
 
@@ -528,13 +522,9 @@ def _of_wear(run: Run) -> dict[str, Any]:
 
 
 def _of_curve(run: Run) -> dict[str, Any]:
-    """How far rods went along a measured curve, where the law is one."""
-    liner, law = run.scene.liner, run.scene.liner.law
-    return (
-        {"curve_share": run.outcome.wear.max() / (liner.thickness_m * law.farthest)}
-        if isinstance(law, Tabulated)
-        else {}
-    )
+    """How far rods went along the measured curve of the law."""
+    liner = run.scene.liner
+    return {"curve_share": run.outcome.wear.max() / (liner.thickness_m * liner.law.farthest)}
 
 
 def _of_history(run: Run) -> dict[str, Any]:
@@ -547,8 +537,11 @@ def _of_history(run: Run) -> dict[str, Any]:
 def _of_states(run: Run) -> dict[str, Any]:
     """States of the last revolutions, and their displacements over the strips."""
     rounds, samples = run.scene.record.rounds_of_states, run.scene.record.samples_per_round
-    time = run.scene.rounds - rounds + np.arange(1, rounds * samples + 1) / samples
-    return {"states": run.outcome.states, "P": run.rom.rows(run.setup.places.xi), "time": time}
+    return {
+        "states": run.outcome.states,
+        "P": run.rom.rows(run.setup.places.xi),
+        "time": run.scene.rounds - rounds + np.arange(1, rounds * samples + 1) / samples,
+    }
 
 
 def _of_spectrum(run: Run) -> dict[str, Any]:

@@ -182,6 +182,7 @@ def _tried(peak: Peak, case: Case, doubt: Doubt) -> Peak:
     runs = []
 
     def at(other: Neighbour) -> Numbers:
+        """Numbers of a second run, which is counted."""
         runs.append(other)
         return at_peak(case.neighbour(other), peak.k)
 

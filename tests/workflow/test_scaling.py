@@ -10,7 +10,7 @@ import yaml
 from projects import ROOT
 
 from geometry.blade import Blade
-from geometry.project import read_json
+from geometry.project import UserError, read_json
 from simulate.scene import Scene
 from simulate.scene.design import Design
 from workflow import usage
@@ -61,7 +61,7 @@ def test_a_log_is_of_its_last_job_and_one_of_an_older_version_is_refused(tmp_pat
     log.write_text("words\n".join(lines))
     assert usage.read_usage(log) == {"seconds": 2.5, "peak_MB": 215}
     log.write_text("words of the job\n")
-    with pytest.raises(usage.UsageError, match=re.escape(str(log))):
+    with pytest.raises(UserError, match=re.escape(str(log))):
         usage.read_usage(log)
 
 

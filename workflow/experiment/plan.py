@@ -304,5 +304,8 @@ def _placed(
         for keys, line in lines.items()
         if keys[: len(place)] == place and f"{fault.key}.".startswith(".".join(keys[len(place) :]))
     ]
-    key = ".".join([*places[-1], fault.key] if fault.key else places[-1])
-    return fault._replace(file=str(path), key=key, line=max(about, default=(0, None))[1])
+    return fault._replace(
+        file=str(path),
+        key=".".join([*places[-1], fault.key] if fault.key else places[-1]),
+        line=max(about, default=(0, None))[1],
+    )

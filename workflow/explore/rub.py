@@ -84,10 +84,14 @@ def by_rounds(
     (Omega,) = scene.speeds.omega(rom.f1)
     check_scene(scene, rom)
     first = before(scene, rom, start)(Omega)
-    record = Record(
-        samples_per_round=scene.record.samples_per_round, end=True, history={"chord": [LEADING]}
+    one = scene.but(
+        rounds=1,
+        record=Record(
+            samples_per_round=scene.record.samples_per_round,
+            end=True,
+            history={"chord": [LEADING]},
+        ),
     )
-    one = scene.but(rounds=1, record=record)
     setup = prepare(one, rom, Omega)
     outcomes: list[Outcome] = []
     while len(outcomes) < scene.rounds and (not outcomes or outcomes[-1].left):

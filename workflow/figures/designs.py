@@ -1,7 +1,5 @@
 """Designs: their rows as a table and a picture, and the factors that matter."""
 
-from typing import Annotated
-
 import numpy as np
 import pandas as pd
 import xarray as xr
@@ -11,7 +9,7 @@ from numpy.typing import NDArray
 
 from simulate.scene import TRENDS
 from simulate.scene.sobol import indices
-from simulate.sweeps.design_runs import load as load_table
+from simulate.sweeps.design_runs import Rows
 from workflow.figures import lines, style
 from workflow.figures.units import MICRO, RPM_PER_HZ
 
@@ -19,9 +17,6 @@ LARGEST, DEEPEST = "largest amplitude (µm)", "deepest wear (µm)"  # of all run
 VALUE = "value (in the unit of its key)"
 QUANTITIES = {"largest_amplitude": "largest amplitude", "largest_wear": "deepest wear"}
 WIDTH = 0.36  # of a bar
-
-
-type Rows = Annotated[xr.Dataset, load_table]
 
 
 def table(rows: xr.Dataset) -> pd.DataFrame:

@@ -143,8 +143,15 @@ def _hats(axes: Axes, nodes: NDArray[np.float64]) -> None:
     for i, values in enumerate(hats(nodes, nodes).T):
         axes.plot(nodes, values, color=style.BLACK, linewidth=0.8, linestyle=("-", "--")[i % 2])
     axes.axvspan(0, 1 / SHARES, zorder=0, label="leading eighth: wear", **EIGHTH)
-    label = f"{style.PLACE}: displacement, gap $g$"
-    axes.plot(LEADING, 0, "o", clip_on=False, zorder=5, label=label, **OUTPUT)
+    axes.plot(
+        LEADING,
+        0,
+        "o",
+        clip_on=False,
+        zorder=5,
+        label=f"{style.PLACE}: displacement, gap $g$",
+        **OUTPUT,
+    )
     eighths = ["0", *(f"{Fraction(i, SHARES)}" for i in range(1, SHARES)), "1"]
     axes.set_xticks(np.arange(SHARES + 1) / SHARES, eighths)
     axes.set(

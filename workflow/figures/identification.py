@@ -91,6 +91,11 @@ def _cells(name: str, shares: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
     for one, held in shares["holds"].items():
         for other in shares["holds"]:
             share = 100 * np.array(held if one == other else shares["together"][one][other], float)
-            text = f"{share:.0f}" if np.isfinite(share) else ""
-            cell = {"one": one, "other": other, "alone": one == other}
-            yield {"of": name, "share": share, "text": text} | cell
+            yield {
+                "of": name,
+                "one": one,
+                "other": other,
+                "alone": one == other,
+                "share": share,
+                "text": f"{share:.0f}" if np.isfinite(share) else "",
+            }

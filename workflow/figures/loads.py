@@ -72,14 +72,13 @@ def loads_of(
     with_result = {
         name: np.where(response.has_result, values, np.nan) for name, values in lines.items()
     }
-    opening = float(mean_opening(np.ones((len(width), 1)), width, radius))
-    volume = float(worn_volume(np.ones((len(width), 1)), width, radius))
+    alike = np.ones((len(width), 1)), width, radius
     return Loads(
         name=results["scene"],
         speeds=response.speeds,
         lines=with_result,
         peaks=results["peaks"],
-        opening_per_volume=opening / volume,
+        opening_per_volume=float(mean_opening(*alike) / worn_volume(*alike)),
         no_torque=scene.no_torque,
     )
 

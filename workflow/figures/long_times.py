@@ -79,8 +79,10 @@ def growth(worst: dict[str, Any]) -> Figure:
     by_name = {
         f"{case['name']}: $E$ = {case['E']:g}, $K$ = {case['K']:g}": case for case in worst["cases"]
     }
-    rounds = [0, max(case["rounds"][-1] for case in worst["cases"])]
-    rigid = worst["rigid"] | {"rounds": rounds, "amplitude": [worst["rigid"]["amplitude"]] * 2}
+    rigid = worst["rigid"] | {
+        "rounds": [0, max(case["rounds"][-1] for case in worst["cases"])],
+        "amplitude": [worst["rigid"]["amplitude"]] * 2,
+    }
     records = [
         {"rounds": revolutions, "amplitude": amplitude, "case": f"{name},{_end(case)}"}
         for name, case in (by_name | {"bare rigid casing": rigid}).items()

@@ -143,8 +143,12 @@ def _amplitudes(axes: Axes, response: Response, printed: str | None) -> None:
         axes.plot(response.speeds, along, linestyle=dashes, color=colour, label=f"EO {k}")
     _others(axes, response)
     paper = _printed(axes, response, printed) if printed else []
-    handles = [*axes.get_legend_handles_labels()[0], *paper]
-    axes.legend(handles=handles, loc="center left", bbox_to_anchor=(1.12, 0.5), handlelength=1.6)
+    axes.legend(
+        handles=[*axes.get_legend_handles_labels()[0], *paper],
+        loc="center left",
+        bbox_to_anchor=(1.12, 0.5),
+        handlelength=1.6,
+    )
     axes.set(yscale="log", ylabel=f"amplitude\n{unit.label}")
     style.beside(axes, second.scale / unit.scale, f"amplitude {second.label}")
     for peak in response.peaks:

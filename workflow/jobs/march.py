@@ -1,4 +1,7 @@
-"""Runs of a scene at given speeds, and the decisions before them."""
+"""Runs of a scene at given speeds, and the decisions before them.
+
+Their check is ``simulate.sweeps.over_speeds.check_sweep``.
+"""
 
 from typing import Any
 
@@ -8,14 +11,9 @@ from simulate.errors import accuracy
 from simulate.errors.accuracy import Choice
 from simulate.scene import Scene
 from simulate.sweeps.dataset import Sweep, merge, save
-from simulate.sweeps.over_speeds import as_sweep, at_speeds, check_sweep, tell_before
+from simulate.sweeps.over_speeds import as_sweep, at_speeds, tell_before
 
 GROUPS = 4  # of speeds, each with its own checks: the same ones in 1, 2 or 4 blocks
-
-
-def check(scene: Scene, rom: Rom, report: Say) -> None:
-    """Check a scene against its reduced model: refuse one that no block of its sweep could run."""
-    check_sweep(scene, rom, report)
 
 
 def pilot(scene: Scene, rom: Rom, check: str, mesh_error: str, report: Say) -> dict[str, Any]:

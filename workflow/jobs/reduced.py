@@ -16,8 +16,7 @@ def make(
     basis: str,
 ) -> None:
     """Reduce M and K(Omega)."""
-    settings = read_blade(blade)
-    reduced, T = reduce(matrices, settings.basis, names["directions"], tell)
+    reduced, T = reduce(matrices, read_blade(blade).basis, names["directions"], tell)
     print(f"n = {reduced.n}, f1(0) = {reduced.f1:.2f} Hz")
     Basis.of(matrices, T, reduced.provenance).save(basis)
     reduced.save(rom)

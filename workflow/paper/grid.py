@@ -28,8 +28,9 @@ type Case = dict[str, Any]
 def of_coating(runs: xr.Dataset, rom: Rom, scene: Scene) -> Case:
     """One coating of the grid, as ``without_twins``; at each peak the twin is run as well."""
     numbers = without_twins(runs, rom, scene)
-    peaks = {k: p and p | _predictable(rom, scene, p) for k, p in numbers["peaks"].items()}
-    return numbers | {"peaks": peaks}
+    return numbers | {
+        "peaks": {k: p and p | _predictable(rom, scene, p) for k, p in numbers["peaks"].items()}
+    }
 
 
 def without_twins(runs: xr.Dataset, rom: Rom, scene: Scene) -> Case:
@@ -53,8 +54,12 @@ def _predictable(rom: Rom, scene: Scene, numbers: Case) -> dict[str, Any]:
 def of_rows(rows: Sequence[Case]) -> dict[str, Any]:
     """The table from the rows of an experiment, those on the scene `grid`."""
     cases = [row["numbers"] for row in rows if row["scene"] == "grid"]
-    orders = sorted({int(k) for case in cases for k in case["peaks"]})
-    return {"E": list(E), "K": list(K), "orders": orders, "cases": cases}
+    return {
+        "E": list(E),
+        "K": list(K),
+        "orders": sorted({int(k) for case in cases for k in case["peaks"]}),
+        "cases": cases,
+    }
 
 
 def worst(table: Mapping[str, Any]) -> Case | None:

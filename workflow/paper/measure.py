@@ -85,9 +85,8 @@ def coating(runs: xr.Dataset, rom: Rom) -> Numbers:
     """One sweep: peaks of all orders, lobes at and away from them, statuses."""
     speeds, lobes = lobes_over_speed(runs)
     ended = runs.isel(speed_over_f1=np.isin(runs["status"].values, WITH_RESULT))
-    peaks = {str(k): p for k in ORDERS if (p := peak(runs, rom, k))}
     return {
-        "peaks": peaks,
+        "peaks": {str(k): p for k in ORDERS if (p := peak(runs, rom, k))},
         "lobes": {"slowest": int(lobes[0]), "fastest": int(lobes[-1])},
         "orders_in_wear": _orders_seen(rom, speeds, lambda k: lobes == k),
         "orders_in_harmonics": _orders_in_harmonics(rom, speeds, leading_wear(ended)),

@@ -104,10 +104,12 @@ def claims(numbers: Numbers, further: Mapping[str, Mapping[str, str]]) -> list[R
 def html(judged: Sequence[Row]) -> str:
     """The page; ``judged``: rows of the claims table, each under its figure, or under none."""
     names = dict.fromkeys(row["figure"] for row in judged)
-    figures = {name: [row for row in judged if row["figure"] == name] for name in names}
     environment = Environment(trim_blocks=True, lstrip_blocks=True, keep_trailing_newline=True)
     environment.filters["text"] = escape
     functions = {"counts": counts, "named": named, "ours": ours, "share": share}
     return environment.from_string(PAGE).render(
-        functions, judged=judged, figures=figures, beside=BESIDE
+        functions,
+        judged=judged,
+        figures={name: [row for row in judged if row["figure"] == name] for name in names},
+        beside=BESIDE,
     )

@@ -23,7 +23,7 @@ rule pilot:
 
 rule check_scene:
     input:
-        code=code_of("workflow.jobs.march"),
+        code=code_of("simulate.sweeps.over_speeds"),
         rom=rom_of_scene,
     output:
         checked=touch("results/{blade}/{scene}/checked"),
@@ -31,7 +31,7 @@ rule check_scene:
         "results/{blade}/{scene}/logs/check.log",
     localrule: True
     params:
-        run="workflow.jobs.march:check",
+        run="simulate.sweeps.over_speeds:check_sweep",
         scene=settings_told,
     message:
         "Scene {wildcards.scene} against its reduced model"

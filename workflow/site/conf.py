@@ -56,8 +56,7 @@ def add_to_page(app: Sphinx, page: str, source: list[str]) -> None:
         source[0] += CONTENTS
     elif page.startswith("workflow/site/"):
         package = page.removeprefix("workflow/site/")
-        files = sorted((ROOT / package.replace(".", "/")).glob("[!_]*.py"))
-        for file in files:
+        for file in sorted((ROOT / package.replace(".", "/")).glob("[!_]*.py")):
             source[0] += MODULE.format(f"{package}.{file.stem}")
 
 
