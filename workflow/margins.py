@@ -5,8 +5,9 @@ Summary, Campbell diagram and page show these rows, of the peaks by ``simulate.s
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from math import isfinite
-from typing import Any
+from typing import Any, TypedDict
 
+from simulate.sweeps.critical_speed import CriticalSpeed
 from workflow import markdown
 
 WITHIN = 0.25  # of the operating speed: tables have the speeds within it
@@ -16,72 +17,72 @@ HEADS = [
 ]
 
 
+class Speed(TypedDict):
+    """A speed with its uncertainty."""
+
+    rpm: float
+    rpm_error: float | None  # None, nan: not known
+    least: bool  # a part of the error is not known
+    bound: bool  # at an end of a sweep
+
+
+class Critical(CriticalSpeed, Speed):
+    """A critical speed with its uncertainty."""
+
+
+class Margin(Critical):
+    """A critical speed with its margins from an operating speed."""
+
+    line: str  # name of the operating speed
+    line_rpm: float
+    speed_margin: float  # critical over operating speed less 1
+    frequency_margin: float | None  # (f - k Omega) / (k Omega) there; None of a rub peak
+
+
 def rows(
     campbell: Mapping[str, Any],
-    peaks: Iterable[Mapping[str, Any]] = (),
+    peaks: Iterable[Critical] = (),
     relative: float = 0.0,
     least: bool = False,
-) -> list[dict[str, Any]]:
+) -> list[Margin]:
     """Each critical speed with its margins from each operating speed, nearest first.
 
     Parameters
     ----------
     campbell : as of ``simulate.sweeps.peak.critical``; empty without operating speeds
-    peaks : of a sweep, each with ``what`` it is, k, rpm, rpm_error, and whether it is at an end of
-        the sweep (``bound``)
+    peaks : rub peaks of a sweep
     relative : error of the frequencies; with ``least`` a part of it is not known
-
-    Returns
-    -------
-    Name and rpm of the operating line; kind of the critical speed, its mode (None of a rub peak),
-    k, rpm, that of the quadratic, rpm_error (None, nan: not known) and ``bound``; the margins of
-    speed, critical over operating speed less 1, and of frequency, (f - k Omega) / (k Omega) at the
-    operating speed (None of a rub peak).
     """
     crossings = [
-        crossing
-        | {
-            "rpm_error": relative * crossing["rpm"]
-            + abs(crossing["quadratic_rpm"] - crossing["rpm"]),
-            "least": least,
-        }
+        Critical(
+            **crossing,
+            rpm_error=relative * crossing["rpm"] + abs(crossing["quadratic_rpm"] - crossing["rpm"]),
+            least=least,
+        )
         for crossing in campbell.get("crossings", ())
     ]
-    rub_peaks = [
-        {
-            "what": peak["what"],
-            "mode": None,
-            "k": peak["k"],
-            "rpm": peak["rpm"],
-            "quadratic_rpm": None,
-            "bound": peak["bound"],
-            "rpm_error": peak["rpm_error"],
-            "least": peak["least"],
-        }
-        for peak in peaks
-    ]
     return [
-        {
-            "line": name,
-            "line_rpm": line_rpm,
+        Margin(
+            line=name,
+            line_rpm=line_rpm,
             **row,
-            "speed_margin": row["rpm"] / line_rpm - 1,
-            "frequency_margin": row["mode"]
+            speed_margin=row["rpm"] / line_rpm - 1,
+            frequency_margin=row["mode"]
             and campbell["Hz"][name][row["mode"] - 1] / (row["k"] * line_rpm / 60) - 1,
-        }
+        )
         for name, line_rpm in campbell.get("lines", {}).items()
         for row in sorted(
-            crossings + rub_peaks, key=lambda row, rpm=line_rpm: abs(row["rpm"] / rpm - 1)
+            [*crossings, *peaks], key=lambda row, rpm=line_rpm: abs(row["rpm"] / rpm - 1)
         )
     ]
 
 
-def near(margins: Iterable[Mapping[str, Any]]) -> list[dict[str, Any]]:
+def near(margins: Iterable[Margin]) -> list[Margin]:
     """Rows within ``WITHIN``."""
     return [row for row in margins if abs(row["speed_margin"]) <= WITHIN]
 
 
-def table(margins: Iterable[Mapping[str, Any]]) -> list[list[str]]:
+def table(margins: Iterable[Margin]) -> list[list[str]]:
     """Cells, under ``HEADS``, of the rows that are near."""
     return [
         [
@@ -90,13 +91,14 @@ def table(margins: Iterable[Mapping[str, Any]]) -> list[list[str]]:
             markdown.cell(row["mode"]),
             str(row["k"]),
             speed(row),
-            *(share(row[f"{kind}_margin"]) for kind in ("speed", "frequency")),
+            share(row["speed_margin"]),
+            share(row["frequency_margin"]),
         ]
         for row in near(margins)
     ]
 
 
-def speed(row: Mapping[str, Any]) -> str:
+def speed(row: Speed) -> str:
     """A critical speed, rpm, with its uncertainty; one at an end of a sweep has none."""
     error = row["rpm_error"]
     if row["bound"] or not error:
@@ -112,7 +114,7 @@ def share(margin: float | None) -> str:
 
 def nearest(
     campbell: Mapping[str, Any],
-    margins: Sequence[Mapping[str, Any]],
+    margins: Sequence[Margin],
     name: str,
     subject: str = "critical speed",
 ) -> Iterator[str]:
@@ -133,7 +135,7 @@ def nearest(
         )
 
 
-def _with_margins(row: Mapping[str, Any]) -> str:
+def _with_margins(row: Margin) -> str:
     """A critical speed with its margins."""
     mode, frequency = f" with mode {row['mode']}", f", frequency {share(row['frequency_margin'])}"
     return (

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from itertools import chain
 from math import isfinite
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from geometry.blade import RPM_PER_HZ
 from geometry.project import csv_text, read_json
@@ -15,6 +15,9 @@ from simulate.errors.neighbour import CHAOTIC, ONE_MOTION, TWO_MOTIONS
 from simulate.scene import DYING_OUT, GROWING, TRENDS
 from workflow import margins, markdown
 from workflow.markdown import Number
+
+if TYPE_CHECKING:  # a slow import, which Snakemake does without
+    from simulate.sweeps.peak import Peak
 
 ALL = "all"  # numbers of a peak
 
@@ -103,7 +106,23 @@ COURSE = {  # of ``dataset.course``: unit and its scale from SI
     "wears": ("mm3 per round", 1e9),
 }
 
-type Row = dict[str, Any]
+
+class PeakRow(margins.Speed):
+    """A peak: speeds in rpm and over f1(0), all else in SI; None where it is not known."""
+
+    k: int | None  # engine order; None without a peak
+    over_f1: float
+    hz: float | None
+    over_crossing: float | None
+    status: str
+    word: str  # verdict of second runs, else the status
+    lobes: int | None
+    course: dict[str, Any]  # as of ``dataset.course``
+    unknown: dict[str, list[str]]  # parts of the uncertainty of ``ALL`` numbers, or of one
+    over_gap: dict[str, float | None]  # amplitude and wear over the gap, as figures have them
+    values: dict[str, float]
+    errors: Mapping[str, float | None]
+    other: dict[str, float]  # of the second of two motions
 
 
 def numbers(
@@ -120,54 +139,59 @@ def numbers(
     from simulate.sweeps.peak import critical
 
     stress = {row["scene"]: row for row in map(read_json, getattr(files, "stress", []))}
-    scenes = [
-        _scene(
-            results,
-            stress.get(results["scene"]),
-            (lines := operating.get(results["blade"], {})) and critical(Rom.load(rom), lines),
-        )
-        for results, rom in zip(map(read_json, files.answers), files.roms, strict=True)
-    ]
-    return {"scenes": scenes, "others": list(others)}
+    return {
+        "scenes": [
+            _scene(
+                results,
+                stress.get(results["scene"]),
+                (lines := operating.get(results["blade"], {})) and critical(Rom.load(rom), lines),
+            )
+            for results, rom in zip(map(read_json, files.answers), files.roms, strict=True)
+        ],
+        "others": list(others),
+    }
 
 
 def _scene(
     results: Mapping[str, Any], stress: Mapping[str, Any] | None, campbell: Mapping[str, Any]
 ) -> dict[str, Any]:
     """One scene; ``stress``: as of ``stress.json``; ``campbell``: subject of its margins."""
-    stress_by_speed = (
-        {_key(row["speed_over_f1"]): row for row in stress["speeds"]} if stress else {}
-    )
-    rows = [
-        _row(results, peak, stress_by_speed.get(_key(peak["Omega_c"]), {}))
-        for peak in results["peaks"]
-    ]
-    peaks = [
-        row | {"what": f"rub peak ({row['course']['trend']})" if moves(row) else "rub peak"}
+    from simulate.sweeps.peak import Peak  # slow, as above
+
+    stress_by_speed = {row["speed_over_f1"]: row for row in stress["speeds"]} if stress else {}
+    found = [Peak.of(peak) for peak in results["peaks"]]
+    rows = [_row(results, peak, stress_by_speed.get(peak.Omega_c, {})) for peak in found]
+    rub_peaks = [
+        margins.Critical(
+            what=f"rub peak ({row['course']['trend']})" if moves(row) else "rub peak",
+            mode=None,
+            k=row["k"],
+            rpm=row["rpm"],
+            quadratic_rpm=None,
+            bound=row["bound"],
+            rpm_error=row["rpm_error"],
+            least=row["least"],
+        )
         for row in rows
         if row["k"]
     ]
     return {
         **{key: results[key] for key in COPIED},
-        "answers_s": sum(peak["seconds"] for peak in results["peaks"]),
-        "runs": sum(peak["runs"] for peak in results["peaks"]),
+        "answers_s": sum(peak.seconds for peak in found),
+        "runs": sum(peak.runs for peak in found),
         "rows": rows,
         "stresses": [*stress_by_speed.values()],
         "operating": campbell,
         "margins": margins.rows(
-            campbell, peaks, _model_error(results), None in results["doubt"].values()
+            campbell, rub_peaks, _model_error(results), None in results["doubt"].values()
         ),
     }
 
 
-def _row(results: Mapping[str, Any], peak: Mapping[str, Any], stress: Mapping[str, Any]) -> Row:
-    """One peak: speeds in rpm and over f1(0), all else in SI; None where it is not known.
-
-    ``over_gap``: amplitude and wear over the gap, as figures have them.
-    """
-    f1, k, over_f1 = results["f1_Hz"], peak["k"], peak["Omega_c"]
-    values, errors = dict(peak["numbers"]), dict(peak["errors"])
-    values |= {name: stress[name] for name in STRESS & stress.keys()}
+def _row(results: Mapping[str, Any], peak: "Peak", stress: Mapping[str, Any]) -> PeakRow:
+    """The row of a peak; ``stress``: that of its speed, empty where it is not known."""
+    f1, k, over_f1 = results["f1_Hz"], peak.k, peak.Omega_c
+    values = peak.numbers | {name: stress[name] for name in STRESS & stress.keys()}
     return {
         "k": k,
         "rpm": RPM_PER_HZ * f1 * over_f1,
@@ -175,20 +199,20 @@ def _row(results: Mapping[str, Any], peak: Mapping[str, Any], stress: Mapping[st
         "least": None in results["doubt"].values(),
         "over_f1": over_f1,
         "hz": k and k * f1 * over_f1,
-        "over_crossing": peak["crossing"] and over_f1 / peak["crossing"],
-        "bound": peak["at_end"],
-        "status": peak["status"],
-        "word": peak["verdict"] or peak["status"],
-        "lobes": peak["lobes"],
-        "course": peak["course"],
-        "unknown": _unknown(results["doubt"], peak["parts"]),
+        "over_crossing": peak.crossing and peak.over_crossing,
+        "bound": peak.at_end,
+        "status": peak.status,
+        "word": peak.verdict or peak.status,
+        "lobes": peak.lobes,
+        "course": peak.course,
+        "unknown": _unknown(results["doubt"], peak.parts),
         "over_gap": {
-            "amplitude": peak["amplitude"],
+            "amplitude": peak.amplitude,
             "wear": (wear := values.get("wear")) and wear / results["gap_m"],
         },
         "values": values,
-        "errors": errors,
-        "other": peak["other"],
+        "errors": peak.errors,
+        "other": peak.other,
     }
 
 
@@ -210,22 +234,17 @@ def _unknown(
     return {ALL: missing, "amplitude": ["speeds"] if "speeds" in failed else []}
 
 
-def _speed_error(results: Mapping[str, Any], peak: Mapping[str, Any]) -> float | None:
+def _speed_error(results: Mapping[str, Any], peak: "Peak") -> float | None:
     """Uncertainty of a critical speed, rpm: spacing of the sweep, error of the frequencies."""
-    if peak["k"] is None or peak["spacing"] is None or peak["at_end"]:
+    if peak.k is None or peak.spacing is None or peak.at_end:
         return None
-    off = peak["spacing"] + _model_error(results) * peak["Omega_c"]
+    off = peak.spacing + _model_error(results) * peak.Omega_c
     return RPM_PER_HZ * results["f1_Hz"] * off
 
 
 def _model_error(results: Mapping[str, Any]) -> float:
     """Relative error of the frequencies, as far as it is known."""
     return (results["doubt"]["basis"] or 0.0) + (results["doubt"]["mesh"] or 0.0)
-
-
-def _key(over_f1: float) -> float:
-    """A speed of a sweep, as files hold it."""
-    return round(over_f1, 9)
 
 
 def table(summary: Mapping[str, Any]) -> str:
@@ -330,12 +349,12 @@ def shown(scene: Mapping[str, Any]) -> list[tuple[list[str], list[list[str]]]]:
     ]
 
 
-def _cells(row: Row, columns: Iterable[Column]) -> list[str]:
+def _cells(row: PeakRow, columns: Iterable[Column]) -> list[str]:
     """The numbers of a row under these columns."""
     return [_cell(row, column) for column in columns]
 
 
-def _cell(row: Row, column: Column) -> str:
+def _cell(row: PeakRow, column: Column) -> str:
     """The number, that of another motion, its uncertainty in percent, and whether it goes on."""
     value, error, other = (row[kind].get(column.name) for kind in ("values", "errors", "other"))
     if value is None:
@@ -348,19 +367,19 @@ def _cell(row: Row, column: Column) -> str:
     return f"{number.shown}{further} {number.share}{goes_on}".rstrip() + revolution_text
 
 
-def _in_part(row: Row, name: str) -> bool:
+def _in_part(row: PeakRow, name: str) -> bool:
     """Whether parts of the uncertainty of a number are not known, others are."""
     return name not in STRESS and any(
         row["unknown"][part] for part in (ALL, name) if part in row["unknown"]
     )
 
 
-def moves(row: Row) -> bool:
+def moves(row: PeakRow) -> bool:
     """Whether the motion still grows or dies out at the end of the run."""
     return row["course"].get("trend") in (GROWING, DYING_OUT)
 
 
-def _end_of_run(row: Row) -> list[str]:
+def _end_of_run(row: PeakRow) -> list[str]:
     """Whether the motion is steady, its time constant, and the wear still going on."""
     course = row["course"]
     numbers = course.get("time_constant"), course.get("wears") and 1e9 * course["wears"]
@@ -457,7 +476,7 @@ def _seen(end: Mapping[str, Any]) -> str:
     return ", ".join(parts + [end["status"]] * (end["status"] != "ok"))
 
 
-def over_gap(row: Row) -> list[str]:
+def over_gap(row: PeakRow) -> list[str]:
     """Speed over f1(0) and crossing, amplitude and wear over the gap, as figures have them."""
     speeds = [f"{row[name]:.3f}" for name in ("over_f1", "over_crossing")]
     return speeds + [
@@ -485,12 +504,12 @@ def margins_csv(summary: Mapping[str, Any]) -> str:
     return csv_text([*records[:1], *rows])
 
 
-def _record(scene: Mapping[str, Any], row: Row) -> dict[str, Any]:
+def _record(scene: Mapping[str, Any], row: PeakRow) -> dict[str, Any]:
     """Cells of a row of the CSV file by their head."""
     numbers = {
         f"{column.name}{what} ({column.unit})": _digits(row[key].get(column.name), column.scale)
         for column in COLUMNS
-        for what, key in {"": "values", " +-": "errors", " other": "other"}.items()
+        for what, key in (("", "values"), (" +-", "errors"), (" other", "other"))
     }
     return {
         "scene": scene["scene"],

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from functools import partial
 from itertools import product
 from math import isnan
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 import xarray as xr
@@ -21,6 +21,7 @@ from rom.model import Rom
 from simulate.errors.observables import Numbers
 from simulate.errors.signals import amplitude, leading_gap
 from simulate.scene import BESIDE
+from simulate.sweeps.critical_speed import CriticalSpeed
 from simulate.sweeps.dataset import scene_of
 
 ORDERS = range(3, 15)  # engine orders along which peaks are sought, beside those of a scene
@@ -79,6 +80,11 @@ class Peak:
     def plain(self) -> dict[str, Any]:
         """All fields as plain values; of a peak along an engine order ``over_crossing`` as well."""
         return vars(self) | ({"over_crossing": self.over_crossing} if self.k else {})
+
+    @classmethod
+    def of(cls, plain: Mapping[str, Any]) -> Self:
+        """The peak of ``plain`` values, as files have them."""
+        return cls(**{name: value for name, value in plain.items() if name != "over_crossing"})
 
 
 def crossing(rom: Rom, k: int, mode: int = 1, beyond: int = 0) -> float:
@@ -141,7 +147,7 @@ def critical(rom: Rom, operating: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-def _crossing(rom: Rom, mode: int, k: int) -> dict[str, Any]:
+def _crossing(rom: Rom, mode: int, k: int) -> CriticalSpeed:
     """A crossing, nan rpm without one, and that of the quadratic: they differ above Omega_m."""
     own, *ahead = (RPM * rom.omega1 * crossing(rom, k, mode, degree) for degree in (0, 1, 2))
     linear, quadratic = ahead if isnan(own) else (own, own)

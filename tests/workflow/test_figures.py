@@ -49,7 +49,7 @@ from simulate.scene import Scene
 from simulate.scene.sobol import Sobol, indices
 from simulate.sweeps.dataset import save as save_sweep
 from simulate.sweeps.design_runs import FORMAT, save as save_table
-from simulate.sweeps.peak import along_order
+from simulate.sweeps.peak import Peak, along_order
 from simulate.sweeps.peak_results import asked, ends
 from workflow.figures import (
     clearance,
@@ -285,14 +285,14 @@ STRESSES = (  # of three speeds, and the answers at the second; of the third the
             {"speed_over_f1": 0.4, "trend": "growing"},
         ],
     },
-    {"peaks": [{"k": 4, "Omega_c": 0.35}, {"k": 5, "Omega_c": 0.4}]},
+    {"peaks": [{"k": 4, "index": 1, "Omega_c": 0.35}, {"k": 5, "index": 2, "Omega_c": 0.4}]},
 )
 
 
 @pytest.fixture
 def two_loads():
     """Two scenes; of the second no volume is known, and torque at one speed."""
-    peak = {"k": 4, "Omega_c": 0.33, "numbers": {"force": 40.0}, "errors": {"force": 2.0}}
+    peak = Peak(4, 0, 0.33, numbers={"force": 40.0}, errors={"force": 2.0})
     lines = {"torque": np.array([0.1, 0.2]), "worn_volume": np.array([1e-8, 3e-8])}
     of = loads.Loads("one", np.array([0.3, 0.35]), lines, [peak], 10.0)
     return [of, of._replace(name="two", lines={"torque": np.array([0.3, np.nan])}, peaks=[])]

@@ -7,6 +7,7 @@ from scenes import scene
 
 from rom.reduce import reduce
 from simulate.sweeps.over_speeds import as_sweep, at_speeds
+from simulate.sweeps.peak import Peak
 from workflow.figures import loads, table
 from workflow.figures.response import Response
 
@@ -66,7 +67,7 @@ def test_a_number_that_is_not_recorded_is_known_at_peaks_and_the_caption_names_i
         ("worn_volume", "wear", "record.wear"),
     ):
         assert key in caption
-        peak = {"k": 4, "Omega_c": 0.33, "numbers": {name: 2.0}, "errors": {name: 0.1}}
+        peak = Peak(4, 0, 0.33, numbers={name: 2.0}, errors={name: 0.1})
         of = loads_of(variable)._replace(peaks=[peak])
         assert name not in of.lines
         drawn = loads.panels([of], 100.0, "mine")

@@ -21,6 +21,7 @@ NUMBERS = {
 NUMBERS |= {"force": 170.0, "force_peak": 580.0, "torque": 0.05}
 ANSWER = {
     "k": 4,
+    "index": 100,
     "Omega_c": 0.35,
     "spacing": 4e-4,
     "crossing": 0.31,

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from rom.check import RomCheck
 from rom.model import Rom
+from simulate.sweeps.critical_speed import CriticalSpeed
 from simulate.sweeps.peak import BEYOND, critical
 from workflow import margins
 from workflow.figures import style, units
@@ -104,7 +105,7 @@ def _frequencies(
 def _crossings(
     axes: Axes,
     orders: Sequence[int],
-    marked: Sequence[Mapping[str, Any]],
+    marked: Sequence[CriticalSpeed],
     f1_Hz: float,
     unit: units.Unit,
 ) -> None:

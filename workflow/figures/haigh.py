@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 
 from fem.fatigue import MEGA, allowed
 from geometry.blade import Fatigue
+from simulate.sweeps.peak import Peak
 from workflow.figures import style
 
 POINTS = 401  # of the line
@@ -42,11 +43,12 @@ def draw(stress: Mapping[str, Any], answers: Mapping[str, Any]) -> Figure:
         axes.margins(0.12)  # for the names of peaks
         axes.set(xlabel="mean stress (MPa)", ylabel="alternating stress (MPa)", ylim=(0, None))
     least = min((row["margin"] for row in rows.values()), default=np.inf)
-    for peak in [peak for peak in answers["peaks"] if peak["k"] and peak["Omega_c"] in rows]:
-        place = places[peak["Omega_c"]]
+    peaks = (Peak.of(peak) for peak in answers["peaks"])
+    for peak in (peak for peak in peaks if peak.k and peak.Omega_c in rows):
+        place = places[peak.Omega_c]
         near.plot(*place, "o", color=style.VERMILLION, markersize=3.5, label="peak")
-        if rows[peak["Omega_c"]]["margin"] < NAMED * least:
-            style.note(near, place, f"EO {peak['k']}", (4, 3))
+        if rows[peak.Omega_c]["margin"] < NAMED * least:
+            style.note(near, place, f"EO {peak.k}", (4, 3))
     style.legend(drawn, "lower center", ncols=3)
     drawn.suptitle(
         f"scene {stress['scene']}, blade {stress['blade']}: least margin {least:.3g}", fontsize=8

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from rom.model import Rom
 from simulate.errors.loads import mean_force, mean_opening, torque, worn_volume
+from simulate.sweeps.peak import Peak
 from workflow.figures import style, units
 from workflow.figures.marks import NO_LINES, operating_lines
 from workflow.figures.response import Response
@@ -31,7 +32,7 @@ class Loads(NamedTuple):
     name: str
     speeds: NDArray[np.float64]  # (speeds,), over f1(0)
     lines: dict[str, NDArray[np.float64]]  # (speeds,), by name of the number; those that are known
-    peaks: Sequence[Mapping[str, Any]]  # its answers
+    peaks: Sequence[Peak]  # its answers
     opening_per_volume: float  # 1/m2
     no_torque: str | None = None  # why the model has none
 
@@ -77,7 +78,7 @@ def loads_of(
         name=results["scene"],
         speeds=response.speeds,
         lines=with_result,
-        peaks=results["peaks"],
+        peaks=[Peak.of(peak) for peak in results["peaks"]],
         opening_per_volume=float(mean_opening(*alike) / worn_volume(*alike)),
         no_torque=scene.no_torque,
     )
@@ -132,7 +133,7 @@ def _unknown(loads: Sequence[Loads]) -> str:
 
 
 def _has(loads: Loads, name: str) -> bool:
-    return name in loads.lines or any(name in peak["numbers"] for peak in loads.peaks)
+    return name in loads.lines or any(name in peak.numbers for peak in loads.peaks)
 
 
 def _draw(axes: Axes, loads: Loads, name: str, scale: float, number: int) -> None:
@@ -140,12 +141,12 @@ def _draw(axes: Axes, loads: Loads, name: str, scale: float, number: int) -> Non
     look = LOOKS[number % len(LOOKS)]
     if name in loads.lines:
         axes.plot(loads.speeds, scale * loads.lines[name], label=f"scene {loads.name}", **look)
-    peaks = [peak for peak in loads.peaks if name in peak["numbers"]]
+    peaks = [peak for peak in loads.peaks if name in peak.numbers]
     if peaks:
-        values = scale * np.array([peak["numbers"][name] for peak in peaks])
-        errors = scale * np.array([peak["errors"][name] or np.nan for peak in peaks])
+        values = scale * np.array([peak.numbers[name] for peak in peaks])
+        errors = scale * np.array([peak.errors[name] or np.nan for peak in peaks])
         axes.errorbar(
-            [peak["Omega_c"] for peak in peaks],
+            [peak.Omega_c for peak in peaks],
             values,
             np.where(np.isfinite(errors), errors, 0.0),
             fmt=MARKERS[number % len(MARKERS)],
