@@ -430,11 +430,14 @@ class Blade(SettingsFile):
     def settings_of_matrices(self) -> dict[str, Any]:
         """Settings on which the matrices depend, besides the mesh."""
         values = self.model_dump(mode="json", exclude_none=True)
-        interface = {
-            k: v for k, v in values["interface"].items() if (k in OF_POINTS) == self.of_points
+        return {
+            "material": values["material"],
+            "prestress": values["prestress"],
+            "max_speed_rad_s": self.top_speed,
+            "interface": {
+                k: v for k, v in values["interface"].items() if (k in OF_POINTS) == self.of_points
+            },
         }
-        used = {key: values[key] for key in ("material", "prestress")}
-        return used | {"max_speed_rad_s": self.top_speed, "interface": interface}
 
     def settings_of_model(self) -> dict[str, Any]:
         """Settings on which the reduced model depends, besides the mesh and its directions."""

@@ -15,6 +15,15 @@ TURNED = 0.2  # rad, least turn of the outline at a spike; back in both neighbou
 BESIDE = 0.25  # of the chord, that an edge may be beside the line between its neighbours
 
 
+def enclosed(a: NDArray[np.float64], b: NDArray[np.float64]) -> float:
+    """Area within the outline of points (n,) in a plane; below 0 if it turns from b to a.
+
+    >>> float(enclosed(np.array([0.0, 2.0, 2.0, 0.0]), np.array([0.0, 0.0, 1.0, 1.0])))
+    2.0
+    """
+    return (a @ np.roll(b, -1) - b @ np.roll(a, -1)) / 2
+
+
 def check_outline(name: str, outline: NDArray[np.float64]) -> None:
     """Check that an outline (n, 3) has no gap and no spike.
 

@@ -17,7 +17,7 @@ from scipy.spatial.distance import pdist, squareform
 
 from geometry.blade import SectionTable
 from geometry.frame import to_blade
-from geometry.outline import check_line, check_outline
+from geometry.outline import check_line, check_outline, enclosed
 from geometry.project import MeshError, csv_rows, numbers, shown
 
 HEADER = ["section", "x", "y", "z"]
@@ -127,8 +127,9 @@ def _cut(name: str, outline: NDArray, share: float) -> CutSection:
     nearness = (1 - np.cos(np.linspace(0, np.pi, STATIONS))) / 2
     stations = share + (1 - 2 * share) * nearness
     sides = [_at_stations(name, side, stations) for side in (suction, pressure)]
-    removed = 1 - _area(np.vstack([sides[0], sides[1][::-1]])) / _area(outline)
-    cut = CutSection(name, *sides, removed)
+    kept = np.vstack([sides[0], sides[1][::-1]])
+    removed = 1 - abs(enclosed(*kept[:, 1:].T) / enclosed(*outline[:, 1:].T))  # along the radius
+    cut = CutSection(name, *sides, float(removed))
     along = suction[-1] - suction[0]
     ahead = np.cross([1.0, 0, 0], along) * -1.0
     thickness = (cut.pressure - cut.suction) @ ahead / np.linalg.norm(ahead)
@@ -141,12 +142,6 @@ def _cut(name: str, outline: NDArray, share: float) -> CutSection:
     return cut
 
 
-def _area(outline: NDArray) -> float:
-    """Area, m2, within an outline (n, 3) as it is seen along the radius."""
-    _, y, z = outline.T
-    return float(abs(y @ np.roll(z, -1) - z @ np.roll(y, -1)) / 2)
-
-
 def _sides(name: str, outline: NDArray) -> tuple[NDArray, NDArray]:
     """Suction and pressure side, each from the leading to the trailing end of the chord."""
     outline = outline[np.linalg.norm(np.roll(outline, -1, axis=0) - outline, axis=1) > 0]
@@ -157,10 +152,10 @@ def _sides(name: str, outline: NDArray) -> tuple[NDArray, NDArray]:
     first, last = np.unravel_index(gaps.argmax(), gaps.shape)
     if outline[first, 2] > outline[last, 2]:
         first, last = last, first
-    y, z = outline[:, 1], outline[:, 2]
-    if np.sum(z * np.roll(y, -1) - np.roll(z, -1) * y) < 0:  # clockwise: pressure side first
-        outline, first, last = outline[::-1], len(y) - 1 - first, len(y) - 1 - last
-    outline, last = np.roll(outline, -first, axis=0), (last - first) % len(y)
+    n = len(outline)
+    if enclosed(outline[:, 2], outline[:, 1]) < 0:  # clockwise: pressure side first
+        outline, first, last = outline[::-1], n - 1 - first, n - 1 - last
+    outline, last = np.roll(outline, -first, axis=0), (last - first) % n
     return outline[: last + 1], np.vstack([outline[last:], outline[:1]])[::-1]
 
 

@@ -98,8 +98,9 @@ def _edges(facets: NDArray) -> NDArray:
 def _pieces(member: NDArray, shared: NDArray) -> NDArray:
     """Number of the connected component of each member; those with the same ``shared`` connect."""
     n = int(member.max()) + 1
-    shape = (n + int(shared.max()) + 1,) * 2
-    graph = coo_matrix((np.ones(len(member)), (member, n + shared)), shape=shape)
+    graph = coo_matrix(
+        (np.ones(len(member)), (member, n + shared)), shape=(n + int(shared.max()) + 1,) * 2
+    )
     return connected_components(graph, directed=False)[1][:n]
 
 

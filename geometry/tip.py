@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from geometry.hats import middles
+from geometry.outline import enclosed
 from geometry.project import MeshError
 
 NEAR_ENDS = np.array([0.01, 0.02, 0.03])  # chord fractions, behind most of a blunt or round edge
@@ -94,8 +95,7 @@ class DevelopedTip:
 
     def width(self) -> float:
         """Mean thickness over the chord: area within the outline over the square of the chord."""
-        a, b = self.developed(cartesian(self.outline)).T
-        area = abs(a @ np.roll(b, -1) - b @ np.roll(a, -1)) / 2
+        area = abs(enclosed(*self.developed(cartesian(self.outline)).T))
         return float(area / (self.high - self.low) ** 2)
 
     def _turned(self, flat: NDArray) -> NDArray:

@@ -25,7 +25,7 @@ from workflow.paper import long, report
 from workflow.paper.claims import COATING
 from workflow.paper.printed import SHIFTS
 from workflow.study import bases, interface, mesh, rotor37, scaling, stability, trade_table
-from workflow.summary import about, crossings_and_ends, over_gap, terminal
+from workflow.summary import PeakRow, about, crossings_and_ends, over_gap, terminal
 
 FOLDERS = ("geometry", "fem", "rom", "simulate", "workflow", "profiles", "tests")
 PAGES = (
@@ -71,7 +71,7 @@ def printed(summary: Mapping[str, Any]) -> str:
     return f"```\n{terminal({'scenes': summary['scenes'][:1], 'others': []}).strip()}\n```"
 
 
-def _peaks(summary: Mapping[str, Any]) -> Iterator[tuple[Mapping[str, Any], Mapping[str, Any]]]:
+def _peaks(summary: Mapping[str, Any]) -> Iterator[tuple[Mapping[str, Any], PeakRow]]:
     """Each scene with each of its peaks along an engine order."""
     return ((scene, row) for scene in summary["scenes"] for row in scene["rows"] if row["k"])
 
@@ -91,8 +91,10 @@ def inputs(counts: Mapping[str, Any]) -> str:
         for total, counted in [(sum(by_result.values()), [by_result.get(name, 0) for name in good])]
     ]
     totals = ["all", *(sum(column) for column in zip(*(row[1:] for row in rows), strict=True))]
-    head = ["what is written", "inputs", "refused in a line", "read as it says", "anything else"]
-    return table(head, [*rows, totals])
+    return table(
+        ["what is written", "inputs", "refused in a line", "read as it says", "anything else"],
+        [*rows, totals],
+    )
 
 
 def bricks(solved: Mapping[str, Any]) -> str:
@@ -110,11 +112,13 @@ def bricks(solved: Mapping[str, Any]) -> str:
         for row in solved["rows"]
     ]
     at_speed = f"at {solved['speed_rad_s']:g} rad/s"
-    head = [
-        *("cells", "program", "nodes", "f₁, Hz", "f₂", "f₁₀", f"f₁ {at_speed}"),
-        *("largest of ten differences", at_speed, "CPU, s"),
-    ]
-    return table(head, [["limit of tetrahedra", "", "", *_few(limit), "", "", ""], *rows])
+    return table(
+        [
+            *("cells", "program", "nodes", "f₁, Hz", "f₂", "f₁₀", f"f₁ {at_speed}"),
+            *("largest of ten differences", at_speed, "CPU, s"),
+        ],
+        [["limit of tetrahedra", "", "", *_few(limit), "", "", ""], *rows],
+    )
 
 
 def _nodes(solved: Mapping[str, Any]) -> str:

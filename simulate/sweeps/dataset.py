@@ -8,7 +8,7 @@ from datetime import UTC, datetime
 from itertools import chain
 from math import ceil
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, cast
 
 import numpy as np
 import xarray as xr
@@ -524,7 +524,8 @@ def _of_wear(run: Run) -> dict[str, Any]:
 def _of_curve(run: Run) -> dict[str, Any]:
     """How far rods went along the measured curve of the law."""
     liner = run.scene.liner
-    return {"curve_share": run.outcome.wear.max() / (liner.thickness_m * liner.law.farthest)}
+    deepest = liner.thickness_m * cast(Table, liner.law).farthest
+    return {"curve_share": run.outcome.wear.max() / deepest}
 
 
 def _of_history(run: Run) -> dict[str, Any]:

@@ -137,8 +137,12 @@ def to_march(runs: xr.Dataset) -> Scene:
     It has the step, rods and strips that a sweep with an accuracy was run with.
     """
     unused = dict.fromkeys(OF_LAST_ROUNDS)
-    record = unused | {"contact_force": True, "end": False}
-    return scene_of(runs).but(twin=False, halving=False, peaks=None, record=record)
+    return scene_of(runs).but(
+        twin=False,
+        halving=False,
+        peaks=None,
+        record=unused | {"contact_force": True, "end": False},
+    )
 
 
 def asked(runs: xr.Dataset, rom: Rom) -> list[Peak]:

@@ -138,8 +138,9 @@ class Marched:
             numbers = _called(self.case.function, self)
         except UserError as error:
             raise error.within(key=f"{self.case.row}, {self.case.label}") from None
-        cpu_s = float(f"{median(self.seconds or [0.0]):.4g}")
-        write_json({"cpu_s": cpu_s, "numbers": numbers}, file)
+        write_json(
+            {"cpu_s": float(f"{median(self.seconds or [0.0]):.4g}"), "numbers": numbers}, file
+        )
         return about | read_json(file)
 
 

@@ -39,8 +39,9 @@ def shapes(two: Response, two_five: Response) -> Figure:
     ``two`` and ``two_five``: sweeps, of which the scenes are drawn.
     """
     drawn = style.figure(style.SINGLE, 3.4)
-    polar = {"ab": {"projection": "polar"}}
-    panels = drawn.subplot_mosaic("ab;cd", height_ratios=(1.6, 1), per_subplot_kw=polar)
+    panels = drawn.subplot_mosaic(
+        "ab;cd", height_ratios=(1.6, 1), per_subplot_kw={"ab": {"projection": "polar"}}
+    )
     distortions = [inward(response) for response in (two, two_five)]
     scale = DRAWN / max(1.0, np.abs(distortions).max())
     for response, d, above, below in zip((two, two_five), distortions, "ab", "cd", strict=True):

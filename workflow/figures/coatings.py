@@ -9,14 +9,13 @@ from matplotlib.ticker import MaxNLocator
 
 from simulate.marching import SENSITIVE_FROM
 from workflow.figures import cells, style
-from workflow.paper.printed import WORST
+from workflow.paper.printed import ENGINE_ORDER, WORST
 
 NUMBERS = {  # values of a peak: label, digits after the point
     "amplitude": (rf"$\|Y\|$ {style.OVER_GAP}", 2),
     "Omega_c": (r"$\Omega_c/f_1(0)$", 3),
 }
 COATINGS = {"E": "Young modulus $E$, paper's unit", "K": "plastic modulus $K$"}
-PRINTED = 4  # engine order of the paper's worst case
 NO_PEAK, RISE, OF_PAPER = "-", "*", "\N{DAGGER}"
 MARKS = (
     f"bold: largest amplitude;  {OF_PAPER}: largest in the paper;  in brackets: not predictable;\n"
@@ -33,7 +32,7 @@ type Case = dict[str, Any]
 
 
 @style.styled
-def peaks(grid: Case, order: int = 4) -> Figure:
+def peaks(grid: Case, order: int = ENGINE_ORDER) -> Figure:
     """Two maps, ||Y|| and Omega_c, with the case of the largest amplitude in bold.
 
     The paper's worst case, which is one of EO 4, is marked.
@@ -70,7 +69,7 @@ def _text(case: Case, name: str, digits: int, order: int) -> str:
     peak = case["peak"]
     if peak is None:
         return NO_PEAK
-    is_worst_of_paper = order == PRINTED and (case["E"], case["K"]) == tuple(WORST)
+    is_worst_of_paper = order == ENGINE_ORDER and (case["E"], case["K"]) == tuple(WORST)
     marked = f"{peak[name]:.{digits}f}{RISE * peak['at_end']}{OF_PAPER * is_worst_of_paper}"
     return f"({marked})" if state_of(peak) == "sensitive" else marked
 

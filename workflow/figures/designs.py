@@ -85,8 +85,12 @@ def sensitivity(rows: Rows) -> Figure:
         axes.axhline(0, color=style.BLACK, linewidth=0.6)
     panels[0].set_ylabel("share of the variance")
     not_ok = int((rows["not_ok"] > 0).sum())
-    counted = f"{rows.sizes['row']} rows, {not_ok} with runs not ok"
-    style.legend(drawn, "lower center", ncols=2, title=counted)
+    style.legend(
+        drawn,
+        "lower center",
+        ncols=2,
+        title=f"{rows.sizes['row']} rows, {not_ok} with runs not ok",
+    )
     return drawn
 
 

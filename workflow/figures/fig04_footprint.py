@@ -68,8 +68,14 @@ def _panel(axes: Axes, shown: Footprint) -> None:
     axes.bar(arc, rods.worn - rods.unworn, width, rods.unworn, **WORN_AWAY)
     axes.bar(arc, high - rods.end, width, rods.end, **ROD)
     load = rods[rods.sigma > 0]
-    covered = MILLI * load.begin, high - load.end, MILLI * (load.finish - load.begin), load.end
-    axes.bar(*covered, align="edge", **ENGAGED)
+    axes.bar(
+        MILLI * load.begin,
+        high - load.end,
+        MILLI * (load.finish - load.begin),
+        load.end,
+        align="edge",
+        **ENGAGED,
+    )
     outline = [*along, along[-1], along[0]], [*surface, low - 1, low - 1]
     axes.fill(np.multiply(MILLI, outline[0]), outline[1], **TIP)
     axes.plot(0, np.interp(0, along, surface), "o", markersize=4.5, zorder=5, **MIDDLE_MARK)
@@ -86,8 +92,14 @@ def _panel(axes: Axes, shown: Footprint) -> None:
     middle, steep = (load.begin + load.finish) / 2, magnified * load.slope
     force = load.part * load.sigma / (load.part * load.sigma).max() / np.hypot(1, steep)
     # forces: normal to the profile as drawn
-    feet = MILLI * middle, np.interp(middle, along, surface)
-    axes.quiver(*feet, -steep * force, -force, color=style.BLACK, **ARROWS)
+    axes.quiver(
+        MILLI * middle,
+        np.interp(middle, along, surface),
+        -steep * force,
+        -force,
+        color=style.BLACK,
+        **ARROWS,
+    )
 
 
 def _window(shown: Footprint) -> tuple[float, float]:
@@ -115,5 +127,10 @@ def _name_profile(axes: Axes, shown: Footprint) -> None:
     seen = (along >= first) & (along <= last)
     lowest = along[seen][surface[seen].argmin()]
     x = lowest + np.sign(first + last - 2 * lowest) * NAMED * (last - first)
-    ends = (MILLI * x, np.interp(x, along, surface)), (MILLI * x, surface[seen].max())
-    style.measure(axes, *ends, "$p(s)$", **DEPTH)
+    style.measure(
+        axes,
+        (MILLI * x, np.interp(x, along, surface)),
+        (MILLI * x, surface[seen].max()),
+        "$p(s)$",
+        **DEPTH,
+    )

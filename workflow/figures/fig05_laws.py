@@ -56,8 +56,14 @@ def _explained(axes: Axes) -> None:
     axes.plot([0, STRAINS[0], STRAINS[0]], [hardened, hardened, 0], ":", **THIN)
     _triangle(axes, strain[LOADING], stress[LOADING], (0.06, 0.13), "$E$")
     _triangle(axes, strain[UNLOADING_AGAIN], stress[UNLOADING_AGAIN], (0.65, 0.73), "$E$")
-    hardening = strain[LOADING_ON], stress[LOADING_ON]
-    _triangle(axes, *hardening, (0.6, 0.73), r"$\frac{EK}{E+K}$", above=True)
+    _triangle(
+        axes,
+        strain[LOADING_ON],
+        stress[LOADING_ON],
+        (0.6, 0.73),
+        r"$\frac{EK}{E+K}$",
+        above=True,
+    )
     axes.set(xlim=(0, 0.9), ylim=(0, 0.42), xlabel="strain", ylabel="stress")
     axes.set_xticks([0, alpha, STRAINS[0]], ["0", r"$\alpha$", r"$\varepsilon$"])
     axes.set_yticks([0, law.sigma_Y, hardened], ["0", r"$\sigma_Y$", r"$\sigma_Y + K\alpha$"])

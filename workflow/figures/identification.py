@@ -8,8 +8,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from workflow.figures import cells, style
-from workflow.identify.fits import POSTERIORS, PRIOR
-from workflow.identify.likelihood import SHIFTS, WITH_ORDER, Fit
+from workflow.identify.fits import POSTERIORS, PRIOR, of_fit
+from workflow.identify.likelihood import SHIFTS, WITH_ORDER
 from workflow.identify.priors import Prior, Priors
 
 PANELS = {  # by parameter: label, ticks, scale of its values
@@ -54,7 +54,7 @@ def _densities(axes: Axes, fits: Mapping[str, Any], name: str, prior: Prior) -> 
     values = scale * np.array(fits["values"][name])
     axes.axhline(1, color=style.GREY, linewidth=0.8, label="prior")
     for (K, data), (label, color, line) in LINES.items():
-        numbers = fits["fits"][Fit(K, fits["served"]).name][data]
+        numbers = of_fit(fits, K)[data]
         counts, _ = np.histogram(values, edges, weights=numbers["weights"])
         label = f"{label}\n({numbers['effective']:.0f} effective points)"
         width = FEW if numbers["ranges"] is None else None

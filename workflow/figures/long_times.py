@@ -10,8 +10,8 @@ from matplotlib.ticker import MultipleLocator
 from simulate.sweeps.peak import along_order
 from workflow.figures import lines, style
 from workflow.figures.response import Response
+from workflow.paper.printed import ENGINE_ORDER
 
-ORDER = 4
 WAYS = {  # through the peak: format and colour
     "from rest": ("-", style.BLACK),
     "run-up": ("--", style.VERMILLION),
@@ -19,7 +19,7 @@ WAYS = {  # through the peak: format and colour
     "from rest, worn liner": (":", style.GREEN),
 }
 LABELS = {
-    "amplitude": f"amplitude, EO {ORDER}, {style.OVER_GAP}",
+    "amplitude": f"amplitude, EO {ENGINE_ORDER}, {style.OVER_GAP}",
     "wear": f"deepest wear {style.OVER_GAP}",
 }
 GROWTH = {
@@ -50,7 +50,7 @@ def through_peak(
         {"rounds": revolutions, "speed": f"{speed:.3f}", "amplitude": amplitude}
         for revolutions, response in zip(rounds, long, strict=True)
         for speed, amplitude in zip(
-            response.speeds, along_order(response.sweep, ORDER), strict=True
+            response.speeds, along_order(response.sweep, ENGINE_ORDER), strict=True
         )
     ]
     lines.curves(panels[0], after, "rounds", "amplitude", "speed", markerfacecolor="white")
@@ -62,7 +62,7 @@ def through_peak(
         {"way": way, "speed": speed, "amplitude": amplitude, "wear": wear.max()}
         for way, response in zip(WAYS, (rest, run_up, run_down, on_worn), strict=True)
         for speed, amplitude, wear in zip(
-            response.speeds, along_order(response.sweep, ORDER), response.wear, strict=True
+            response.speeds, along_order(response.sweep, ENGINE_ORDER), response.wear, strict=True
         )
         if speed >= run_up.speeds[0]
     ]
@@ -94,9 +94,12 @@ def growth(worst: dict[str, Any]) -> Figure:
     axes.set(xlim=(0, None), ylim=(0, None))
     axes.xaxis.set_major_locator(MultipleLocator(2 * PAPER_ROUNDS))
     axes.axvline(PAPER_ROUNDS, color=style.GREY, linewidth=0.6, zorder=0)
-    axis_transform = axes.get_xaxis_transform()
     style.note(
-        axes, (PAPER_ROUNDS, 0.03), "end of the paper's runs", (3, 0), xycoords=axis_transform
+        axes,
+        (PAPER_ROUNDS, 0.03),
+        "end of the paper's runs",
+        (3, 0),
+        xycoords=axes.get_xaxis_transform(),
     )
     return drawn
 

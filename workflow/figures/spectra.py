@@ -29,7 +29,7 @@ from workflow.figures.marks import (
 )
 from workflow.figures.response import Response
 from workflow.paper.measure import HIGHEST, SPECTRUM_ROUNDS, disorder
-from workflow.paper.printed import CRITICAL, expected
+from workflow.paper.printed import CRITICAL, ENGINE_ORDER, expected
 
 SHOWN = 2.5  # f / f1(0), highest in the map over the speed
 DECADES = 3  # of the scale of amplitudes
@@ -46,7 +46,6 @@ OTHERS = {"color": style.GREY, "linewidth": 0.8}  # engine orders with a peak, b
 NEAR = 0.07  # of the critical speed, to both sides: where these are drawn
 SHADE = 0.25  # opacity of the paper's critical speeds
 LABEL = f"amplitude of $u_r$ at {style.PLACE}"
-ENGINE_ORDER = 4  # at whose peak spectrograms are drawn
 MODES = 7  # natural frequencies marked in them
 WINDOW = 2  # revolutions, of a spectrum
 SLICES = 16  # spectra per revolution

@@ -110,10 +110,13 @@ def save(drawn: Figure, *paths: str | Path, origin: str = "") -> None:
     ``origin``: provenance, written as the description of a PNG or the subject of a PDF.
     """
     for path in map(Path, paths):
-        pdf = path.suffix == ".pdf"
-        metadata = {"Subject": origin, "CreationDate": None} if pdf else {"Description": origin}
         with mpl.rc_context(RC), whole(path) as temporary:
-            drawn.savefig(temporary, metadata=metadata)
+            drawn.savefig(
+                temporary,
+                metadata={"Subject": origin, "CreationDate": None}
+                if path.suffix == ".pdf"
+                else {"Description": origin},
+            )
 
 
 def edges(centres: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -13,11 +13,10 @@ from simulate.errors.signals import leading_gap, lobe_count
 from workflow.figures import style, units
 from workflow.figures.marks import CASING_ANGLE, hatch, mark_speeds, over_casing, speed_text
 from workflow.figures.response import Response
-from workflow.paper.printed import CRITICAL, CROSSING, LOBES
+from workflow.paper.printed import CRITICAL, CROSSING, ENGINE_ORDER, LOBES
 
 DECADES = 2  # of the scale of depths
 LABEL = f"{style.WORN}\n"
-ENGINE_ORDER = 4
 LINES = (("-", style.BLACK), ("--", style.VERMILLION))  # E = 1, E = 10, dashed as in the paper
 DEGREES = np.arange(-1, 362)  # one degree beyond 0 and 360: maxima may lie there
 
@@ -118,9 +117,12 @@ def _profile(axes: Axes, response: Response, **line: Any) -> None:
         axes.plot([], [], label=f"{response.names}: no speed near the peak", **line)
         return
     chance = ", not predictable" if response.sensitive("wear")[peak.index] else ""
-    label = f"{response.names}: {speed_text(response, peak)}{chance}"
-    worn = response.units["length"][0].scale * response.wear[peak.index]
-    over_casing(axes, worn, label=label, **line)
+    over_casing(
+        axes,
+        response.units["length"][0].scale * response.wear[peak.index],
+        label=f"{response.names}: {speed_text(response, peak)}{chance}",
+        **line,
+    )
 
 
 def _nearest(axes: Axes, response: Response) -> None:

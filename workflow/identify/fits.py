@@ -99,10 +99,15 @@ def _posterior(
     }
 
 
+def of_fit(fits: Mapping[str, Any], K: float, reading: str | None = None) -> dict[str, Any]:
+    """Numbers of one fit, with ``K`` of the coating with E = 1; by default of what was served."""
+    return fits["fits"][Fit(K, reading or fits["served"]).name]
+
+
 def posterior_of(fits: Mapping[str, Any], name: str) -> dict[str, Any]:
     """One of ``POSTERIORS``, by the reading that was served."""
     K, data = POSTERIORS[name]
-    return fits["fits"][Fit(K, fits["served"]).name][data]
+    return of_fit(fits, K)[data]
 
 
 def off_medoid(fits: Mapping[str, Any], points: Points, point: NDArray[np.float64]) -> float | None:

@@ -18,11 +18,12 @@ from workflow.identify.fits import (
     PRIOR,
     drawn,
     fit,
+    of_fit,
     off_medoid,
     posterior_of,
     prior_numbers,
 )
-from workflow.identify.likelihood import FITS, K_OF_E1, SHIFTS, WITH_ORDER, Fit
+from workflow.identify.likelihood import FITS, K_OF_E1, SHIFTS, WITH_ORDER
 from workflow.identify.measured import cases, scenes_at
 from workflow.identify.points import Points, marched
 from workflow.identify.priors import Priors
@@ -58,7 +59,7 @@ def blades(fits: list[dict[str, Any]], names: Sequence[str]) -> dict[str, dict[s
 
 
 def _served_fits(numbers: Mapping[str, Any]) -> dict[str, Any]:
-    fits = {f"{K:g}": numbers["fits"][Fit(K, numbers["served"]).name] for K in K_OF_E1}
+    fits = {f"{K:g}": of_fit(numbers, K) for K in K_OF_E1}
     return {
         "served": numbers["served"],
         "fits": {

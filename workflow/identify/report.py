@@ -5,7 +5,7 @@ from itertools import product
 from textwrap import fill
 from typing import Any
 
-from workflow.identify.fits import TWO_NEAREST
+from workflow.identify.fits import TWO_NEAREST, of_fit
 from workflow.identify.likelihood import FITS, K_OF_E1, SHIFTS, WITH_ORDER, Fit
 from workflow.identify.priors import NAMES
 from workflow.identify.shares import JUDGED, distributions
@@ -64,8 +64,7 @@ WIDTH = 124  # of the lines of a page
 
 def answer(numbers: Mapping[str, Any]) -> str:
     """Three sentences: how near the paper's shifts come, the K they prefer, the conclusion."""
-    loose, taken = (numbers["fits"][Fit(K, "printed").name] for K in K_OF_E1)
-    consistent = [numbers["fits"][Fit(K, "consistent").name] for K in K_OF_E1]
+    loose, taken = (of_fit(numbers, K, "printed") for K in K_OF_E1)
     return fill(
         ANSWER.format(
             points=len(taken[SHIFTS]["weights"]),
@@ -73,7 +72,7 @@ def answer(numbers: Mapping[str, Any]) -> str:
             K=K_OF_E1[1],
             met=taken[SHIFTS]["met"],
             met_loose=loose[SHIFTS]["met"],
-            met_other=max(fit_numbers[SHIFTS]["met"] for fit_numbers in consistent),
+            met_other=max(of_fit(numbers, K, "consistent")[SHIFTS]["met"] for K in K_OF_E1),
             order=loose[WITH_ORDER]["met"],
             nearest=max(map(abs, taken["best"]["deviations"])),
             shifts=loose[SHIFTS]["evidence"] / taken[SHIFTS]["evidence"],
@@ -100,9 +99,10 @@ def ranges(numbers: Mapping[str, Any]) -> str:
 
     And the share of casings that are nearest at four places: the posterior has two modes.
     """
-    columns = {"prior": numbers["prior"]}
-    for data, K in product((SHIFTS, WITH_ORDER), K_OF_E1):
-        columns[f"K = {K:g}, {data}"] = numbers["fits"][Fit(K, numbers["served"]).name][data]
+    columns = {"prior": numbers["prior"]} | {
+        f"K = {K:g}, {data}": of_fit(numbers, K)[data]
+        for data, K in product((SHIFTS, WITH_ORDER), K_OF_E1)
+    }
     rows = [
         [f"`{name}`", *(_range(distribution, name) for distribution in columns.values())]
         for name in NAMES

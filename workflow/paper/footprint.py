@@ -16,8 +16,8 @@ from simulate.scene import LEADING
 from simulate.sweeps.dataset import load, scene_of
 from simulate.sweeps.peak import peak_of
 from workflow.paper.laws import strain_of
+from workflow.paper.printed import ENGINE_ORDER
 
-ENGINE_ORDER = 4
 STRIP = 0  # the leading one
 BESIDE = 3  # rods shown on either side of the footprint
 PRESSED = 1.25  # penetration of the profiled tip into a new liner, over the depth of its profile,

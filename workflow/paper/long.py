@@ -10,8 +10,8 @@ from simulate.errors.signals import leading_gap, leading_wear
 from simulate.sweeps.dataset import Sweep, scene_of
 from simulate.sweeps.peak import along_order
 from workflow.markdown import records, table as rows_of
+from workflow.paper.printed import ENGINE_ORDER
 
-ORDER = 4
 SWEEPS = {"rest": "from rest", "run_up": "run-up", "run_down": "run-down", "on_worn": "worn liner"}
 
 
@@ -27,7 +27,7 @@ def numbers(
     return {
         "rounds": np.cumsum([scene_of(runs).rounds for runs in long]).tolist(),
         "speeds": long[0]["speed_over_f1"].values.tolist(),
-        "amplitude": [along_order(runs, ORDER).tolist() for runs in long],
+        "amplitude": [along_order(runs, ENGINE_ORDER).tolist() for runs in long],
         "wear": [_deepest(runs).tolist() for runs in long],
         "through": {name: _way(runs) for name, runs in through.items()},
     }
@@ -39,7 +39,7 @@ def _deepest(runs: xr.Dataset) -> np.ndarray:
 
 def _way(runs: xr.Dataset) -> dict[str, float]:
     """Largest amplitude and its speed, amplitude at the last speed, deepest wear."""
-    along = along_order(runs, ORDER)
+    along = along_order(runs, ENGINE_ORDER)
     best = int(np.nanargmax(along))
     return {
         "largest": float(along[best]),

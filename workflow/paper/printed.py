@@ -1,6 +1,7 @@
 """Numbers that the paper prints, which figures mark and claims compare. Speeds are over f1(0)."""
 
 HALF_DIGIT = 0.005  # of its speeds
+ENGINE_ORDER = 4  # of the peaks that it compares
 # Linear crossings of f1 with engine order k. The two contradict each other (C10): the second one
 # that follows from 0.31 under f1^2 = 1 + B Omega^2 is 0.181.
 CROSSING = {4: 0.31, 6: 0.17}

@@ -108,13 +108,14 @@ def table(study: Row) -> str:
 
 def operators(study: Row) -> str:
     """Errors of S on fields it represents exactly, of S T = [I 0], of the compliance at rest."""
-    head = ["blade", "patches", "n", *(f"{k} (<= {bar:g})" for k, bar in OPERATOR_BARS.items())]
     rows = [
         [r["blade"], str(r["patches"]), str(r["n"])]
         + [_judged(r[key], bar, f"{r[key]:.1e}") for key, bar in OPERATOR_BARS.items()]
         for r in study["models"]
     ]
-    return markdown.table(head, rows)
+    return markdown.table(
+        ["blade", "patches", "n", *(f"{k} (<= {bar:g})" for k, bar in OPERATOR_BARS.items())], rows
+    )
 
 
 def frequencies(study: Row) -> str:

@@ -90,7 +90,6 @@ def table(rows: Sequence[ExperimentRow]) -> str:
     sizes, nodes, index = study["element_size_mm"], study["nodes"], study["own"]
     pairs = ", ".join(f"{h:.2f} mm ({n:,} nodes)" for h, n in zip(sizes, nodes, strict=True))
     rest, speed, tip = study["at_rest_Hz"], study["at_Omega_m_Hz"], study["tip_deflection_m"]
-    head = ["mode", "limit at rest, Hz", "error, %", "limit at Ω_m, Hz", "error, %"]
     modes = range(len(rest["limit"]))
     errors = [[m + 1, *_cells(rest, m, index), *_cells(speed, m, index)] for m in modes]
     return "\n".join(
@@ -98,7 +97,9 @@ def table(rows: Sequence[ExperimentRow]) -> str:
             f"Sizes {pairs}; observed order {study['order']:.2f}. The blade's own size is "
             f"{sizes[index]:.2f} mm:",
             "",
-            markdown.table(head, errors),
+            markdown.table(
+                ["mode", "limit at rest, Hz", "error, %", "limit at Ω_m, Hz", "error, %"], errors
+            ),
             "",
             "Deflection of the tip at 1/16 of the chord at Ω_m: limit "
             f"{1e3 * tip['limit'][0]:.4f} mm, error {_error(tip, 0, index)} %.",

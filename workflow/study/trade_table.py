@@ -30,7 +30,6 @@ def by_level(rows: Sequence[ExperimentRow]) -> str:
 
     Errors are those of mesh, patches, natural modes, strips, step and rods together.
     """
-    head = ["level", "settings", *HEADS, f"ms per run: {', '.join(SCENES)}", "paper, CPU min"]
     lines = [
         [
             _level(level),
@@ -42,7 +41,10 @@ def by_level(rows: Sequence[ExperimentRow]) -> str:
         for level in levels(rows)
     ]
     floor = _cells(uncertainty(rows).max())
-    return table(head, [*lines, [FLOOR, "", *floor, "", ""]])
+    return table(
+        ["level", "settings", *HEADS, f"ms per run: {', '.join(SCENES)}", "paper, CPU min"],
+        [*lines, [FLOOR, "", *floor, "", ""]],
+    )
 
 
 def schemes(rows: Sequence[ExperimentRow]) -> str:
@@ -88,8 +90,10 @@ def requirements(rows: Sequence[ExperimentRow]) -> str:
         [*row["row"].split(": "), row["scene"], *_cells(row), f"{row['time_ratio']:.2f}"]
         for row in with_ratios(rows, "feature").to_dict("records")
     ]
-    head = ["left out", "instead", "scene", *HEADS, "time ratio"]
-    return table(head, sorted(lines, key=lambda line: line[0]))
+    return table(
+        ["left out", "instead", "scene", *HEADS, "time ratio"],
+        sorted(lines, key=lambda line: line[0]),
+    )
 
 
 def with_ratios(rows: Sequence[ExperimentRow], *groups: str) -> pd.DataFrame:
