@@ -191,7 +191,7 @@ def _scene(
 def _row(results: Mapping[str, Any], peak: "Peak", stress: Mapping[str, Any]) -> PeakRow:
     """The row of a peak; ``stress``: that of its speed, empty where it is not known."""
     f1, k, over_f1 = results["f1_Hz"], peak.k, peak.Omega_c
-    values = peak.numbers | {name: stress[name] for name in STRESS & stress.keys()}
+    values = peak.numbers | {name: stress[name] for name in stress if name in STRESS}
     return {
         "k": k,
         "rpm": RPM_PER_HZ * f1 * over_f1,
