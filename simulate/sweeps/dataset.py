@@ -524,7 +524,7 @@ def _of_wear(run: Run) -> dict[str, Any]:
 def _of_curve(run: Run) -> dict[str, Any]:
     """How far rods went along the measured curve of the law."""
     liner = run.scene.liner
-    deepest = liner.thickness_m * cast(Table, liner.law).farthest
+    deepest = liner.thickness_m * cast(Tabulated, liner.law).farthest
     return {"curve_share": run.outcome.wear.max() / deepest}
 
 

@@ -160,29 +160,23 @@ class Engine:
         lengths = {"amplitudes": (len(self.orders),)}
         return np.dtype([(name, of, lengths.get(name, ())) for name, (of, *_) in COLUMNS.items()])
 
-    def march_row(
-        self, scene: Scene, report: Say = silent, budget: float = 0.0
-    ) -> tuple[NDArray, float]:
+    def march_row(self, scene: Scene, budget: float) -> tuple[NDArray, float]:
         """Numbers of the runs of one row, speeds ascending, closed in on the peaks asked for.
 
         And the steps that checks of other rows may take, with the ``budget`` of those before.
         """
         runs, speeds = [], scene.speeds.omega(self.rom.f1).tolist()
         while speeds:
-            runs += [self._march(scene, Omega, report) for Omega in speeds]
+            cases = (set_up(scene, self.rom, Omega, self.choice) for Omega in speeds)
+            runs += [march_one(case, self.choice) for case in cases]
             known = self._table(runs)
             speeds = (
                 halfway(scene.peaks, self.rom.f1, known["speed"], self.peaks_among(known, scene))
                 if scene.peaks
                 else []
             )
-        runs, budget = checked(runs, scene.checked_share, budget, report)
+        runs, budget = checked(runs, scene.checked_share, budget)
         return self._table(runs), budget
-
-    def _march(self, scene: Scene, Omega: float, report: Say) -> Run:
-        run = march_one(set_up(scene, self.rom, Omega, self.choice), self.choice)
-        report(run.line)
-        return run
 
     def _table(self, runs: Iterable[Run]) -> NDArray:
         """Numbers of ``runs``, speeds ascending."""
@@ -277,7 +271,7 @@ def march_block(
     saved, left = begun, 0.0  # steps for checks
     try:
         for count, (key, i) in enumerate(once.items(), 1):
-            new[key], left = engine.march_row(engine.scenes[i], budget=left)
+            new[key], left = engine.march_row(engine.scenes[i], left)
             done[key] = new[key]
             far = progress.remaining(count, len(once), monotonic() - begun)
             report(f"{_line(i + 1, done[key])}; design {far}")

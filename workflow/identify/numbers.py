@@ -25,14 +25,14 @@ from workflow.identify.fits import (
 )
 from workflow.identify.likelihood import FITS, K_OF_E1, SHIFTS, WITH_ORDER
 from workflow.identify.measured import cases, scenes_at
-from workflow.identify.points import Points, marched
+from workflow.identify.points import TablePoints, marched
 from workflow.identify.priors import Priors
 from workflow.identify.proposal import served
 from workflow.identify.table import COATINGS
 from workflow.paper.editions import growth_of, numbers_of
 
 
-def fits(points: list[Points], rows: list[Rows], priors: Priors) -> dict[str, Any]:
+def fits(points: list[TablePoints], rows: list[Rows], priors: Priors) -> dict[str, Any]:
     """All fits from all tables."""
     tables = marched(points, rows)
     every = drawn(tables)
@@ -46,7 +46,10 @@ def fits(points: list[Points], rows: list[Rows], priors: Priors) -> dict[str, An
 
 
 def of_scene(
-    points: list[Points], fits: Mapping[str, Any], priors: Priors, parameters: Mapping[str, float]
+    points: list[TablePoints],
+    fits: Mapping[str, Any],
+    priors: Priors,
+    parameters: Mapping[str, float],
 ) -> dict[str, float | None]:
     """How near to the medoid of the fit that they are taken from the parameters of a scene are."""
     every = np.vstack([table["points"] for table in points])

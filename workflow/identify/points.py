@@ -1,6 +1,6 @@
 """Points of the tables to be computed, and the computed tables."""
 
-from typing import Any
+from typing import TypedDict
 
 import numpy as np
 import xarray as xr
@@ -11,18 +11,24 @@ from workflow.identify.priors import Priors
 from workflow.identify.proposal import SEED, drawn
 from workflow.identify.table import design, observed, settings, sobol, stiffness
 
-type Points = dict[str, Any]  # of a table, as its file has them
+
+class TablePoints(TypedDict):
+    """Points of a table, as its file has them."""
+
+    data: str | None  # by which they were drawn, of ``likelihood.DATA``; None of the prior
+    points: list[list[float]]  # (points, parameters), in the unit cube
+    settings: dict[str, list[float]]  # values (points,) of the scene's keys
 
 
 def table(
-    points: list[Points],
+    points: list[TablePoints],
     rows: list[Rows],
     rom: Rom,
     reference: Rom,
     priors: Priors,
     number: int,
     data: str | None,
-) -> Points:
+) -> TablePoints:
     """Points of a table, and the keys of the scene there.
 
     They are of the prior, or drawn by ``data`` from the tables before it.
@@ -36,12 +42,12 @@ def table(
     }
 
 
-def csv(table: Points) -> str:
+def csv(table: TablePoints) -> str:
     """The table of a design that these points give."""
     return design({column: np.array(values) for column, values in table["settings"].items()})
 
 
-def marched(points: list[Points], rows: list[Rows]) -> list[xr.Dataset]:
+def marched(points: list[TablePoints], rows: list[Rows]) -> list[xr.Dataset]:
     """The tables computed so far: the values ``observed``, and `points` (point, parameter).
 
     Attribute `data`: that its points were drawn by, of ``likelihood.DATA``; None: by none.
