@@ -97,7 +97,7 @@ PARTS = {  # of uncertainties, that may not be known
 # Values of a scene taken from its answers as they are.
 COPIED = (
     *("scene", "blade", "f1_Hz", "gap_m", "dofs", "crossings", "status", "reasons", "ends"),
-    *("checks", "doubt", "no_torque", "mu_crit", "sweep_s"),
+    *("checks", "model_error", "no_torque", "mu_crit", "sweep_s"),
 )
 
 COURSE = {  # of ``dataset.course``: unit and its scale from SI
@@ -183,7 +183,7 @@ def _scene(
         "stresses": [*stress_by_speed.values()],
         "operating": campbell,
         "margins": margins.rows(
-            campbell, rub_peaks, _model_error(results), None in results["doubt"].values()
+            campbell, rub_peaks, _model_error(results), None in results["model_error"].values()
         ),
     }
 
@@ -196,7 +196,7 @@ def _row(results: Mapping[str, Any], peak: "Peak", stress: Mapping[str, Any]) ->
         "k": k,
         "rpm": RPM_PER_HZ * f1 * over_f1,
         "rpm_error": _speed_error(results, peak),
-        "least": None in results["doubt"].values(),
+        "least": None in results["model_error"].values(),
         "over_f1": over_f1,
         "hz": k and k * f1 * over_f1,
         "over_crossing": peak.crossing and peak.over_crossing,
@@ -205,7 +205,7 @@ def _row(results: Mapping[str, Any], peak: "Peak", stress: Mapping[str, Any]) ->
         "word": peak.verdict or peak.status,
         "lobes": peak.lobes,
         "course": peak.course,
-        "unknown": _unknown(results["doubt"], peak.parts),
+        "unknown": _unknown(results["model_error"], peak.parts),
         "over_gap": {
             "amplitude": peak.amplitude,
             "wear": (wear := values.get("wear")) and wear / results["gap_m"],
@@ -244,7 +244,7 @@ def _speed_error(results: Mapping[str, Any], peak: "Peak") -> float | None:
 
 def _model_error(results: Mapping[str, Any]) -> float:
     """Relative error of the frequencies, as far as it is known."""
-    return (results["doubt"]["basis"] or 0.0) + (results["doubt"]["mesh"] or 0.0)
+    return (results["model_error"]["basis"] or 0.0) + (results["model_error"]["mesh"] or 0.0)
 
 
 def table(summary: Mapping[str, Any]) -> str:
@@ -393,7 +393,7 @@ def about(scene: Mapping[str, Any]) -> str:
     """Blade, frequency, gap, reduced model and how the runs ended, in one line."""
     ends = ", ".join(f"{count} {name}" for name, count in scene["status"].items())
     why = "".join(f"; no contact: {reason}" for reason in scene["reasons"])
-    off = scene["doubt"]["basis"]
+    off = scene["model_error"]["basis"]
     within = "" if off is None else f" (frequencies within {markdown.percent(off)} of the full one)"
     return (
         f"blade {scene['blade']}, f₁(0) = {scene['f1_Hz']:.2f} Hz, "

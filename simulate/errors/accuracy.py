@@ -35,7 +35,7 @@ from simulate.errors.companion import (
     quick_times,
     with_errors,
 )
-from simulate.errors.model_errors import Doubt, ModelErrors
+from simulate.errors.model_errors import ModelError, ModelErrors
 from simulate.errors.run import Run
 from simulate.marching import SceneError, check_scene, edge_slope, least_gap, prepare
 from simulate.marching.piecewise_exact import stiffness_in_a_step
@@ -101,7 +101,7 @@ class Choice(Fineness):
         return cls(**values)
 
 
-def require_model(accuracy: float, model_error: Doubt) -> None:
+def require_model(accuracy: float, model_error: ModelError) -> None:
     """Refuse an accuracy below the error of the reduced model or of its mesh.
 
     Raises
@@ -144,7 +144,7 @@ def pilot(scene: Scene, rom: Rom, check: str | Path, mesh: str | Path | None) ->
     return choose(scene, rom, errors.largest)
 
 
-def choose(scene: Scene, rom: Rom, model_error: Doubt) -> Choice:
+def choose(scene: Scene, rom: Rom, model_error: ModelError) -> Choice:
     """Choose step, rods and strips for ``scene.accuracy`` at some of the scene's speeds.
 
     ``model_error``: errors of frequencies and compliances.

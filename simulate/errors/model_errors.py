@@ -10,7 +10,7 @@ from geometry.stored import opened
 from rom.model import Rom
 
 
-class Doubt(NamedTuple):
+class ModelError(NamedTuple):
     """Relative uncertainties of a model."""
 
     basis: float | None  # largest error in the check of the reduced model; None without one
@@ -20,8 +20,8 @@ class Doubt(NamedTuple):
 class ModelErrors(NamedTuple):
     """Errors of a reduced model, and why that of its mesh could not be found, if so."""
 
-    frequencies: Doubt = Doubt(None, None)  # of natural frequencies
-    largest: Doubt = Doubt(None, None)  # of frequencies and tip compliances
+    frequencies: ModelError = ModelError(None, None)  # of natural frequencies
+    largest: ModelError = ModelError(None, None)  # of frequencies and tip compliances
     no_mesh: str = ""
 
     @classmethod
@@ -43,8 +43,8 @@ class ModelErrors(NamedTuple):
             frequencies = abs(checked["reduced"].values / checked["full"].values - 1)
             largest = np.max([frequencies.max(), abs(checked["compliance_error"]).max()])
         return cls(
-            Doubt(float(np.nanmax(frequencies)), of_mesh.get("frequencies")),
-            Doubt(float(largest), of_mesh.get("error")),
+            ModelError(float(np.nanmax(frequencies)), of_mesh.get("frequencies")),
+            ModelError(float(largest), of_mesh.get("error")),
             of_mesh.get("why", ""),
         )
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from rom.model import Rom
 from simulate.errors.neighbour import Neighbour
-from simulate.marching import Left, Outcome, Setup, Worn, march, prepare
+from simulate.marching import FinalState, Outcome, Setup, Worn, march, prepare
 from simulate.scene import Scene
 
 
@@ -28,7 +28,7 @@ class Case:
     scene: Scene
     rom: Rom
     setup: Setup
-    left: Left | Worn | None = None  # start of the run
+    start: FinalState | Worn | None = None  # start of the run
 
     @property
     def steps_of_a_turn(self) -> int:
@@ -54,11 +54,11 @@ class Case:
                 steps = round(other.steps * self.steps_of_a_turn)
             made = prepare(scene, rom, Omega, steps)
             setup = replace(made, steps=round(other.steps * setup.steps)) if steps else made
-        return Case(scene, rom, other.setup(setup), self.left)
+        return Case(scene, rom, other.setup(setup), self.start)
 
     def march(self) -> "Run":
         """Run the case."""
-        return Run(**vars(self), outcome=march(self.scene, self.setup, self.left))
+        return Run(**vars(self), outcome=march(self.scene, self.setup, self.start))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -74,7 +74,7 @@ class Run(Case):
     def neighbour(self, other: Neighbour) -> Case:
         """As of a case, for as many revolutions as the run took."""
         scene = as_long(self.scene, self.outcome.rounds)
-        return Case(scene, self.rom, self.setup, self.left).neighbour(other)
+        return Case(scene, self.rom, self.setup, self.start).neighbour(other)
 
     @property
     def largest_error(self) -> float:

@@ -10,7 +10,7 @@ from simulate.marching.setup import (
     prepare,
     strip_stiffness,
 )
-from simulate.marching.start import Left, Worn
+from simulate.marching.start import FinalState, Worn
 from simulate.marching.states import every, largest_state
 from simulate.marching.status import (
     SENSITIVE_FROM,

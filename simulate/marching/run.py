@@ -19,7 +19,7 @@ from simulate.marching.friction import sliding
 from simulate.marching.kernel import RUNNING, WORN_THROUGH, Recorded, State, at_start, march_round
 from simulate.marching.modal import TURNS, padded_rows, rows_of
 from simulate.marching.setup import Setup, compiling, strip_stiffness
-from simulate.marching.start import Left, Worn, begin, left_by
+from simulate.marching.start import FinalState, Worn, begin, final_state
 from simulate.marching.status import WITH_RESULT, Facts, judge, why_no_contact
 from simulate.marching.trend import Rounds, looks, time_constant
 from simulate.scene import STEADY, TOO_SHORT, Record, Scene
@@ -56,7 +56,7 @@ class Outcome:
     time_constant: float = nan  # revolutions, of the mode that responds in the last one; inf
     # without damping, nan where the run ended early
     trend: str = TOO_SHORT  # whether the motion is steady
-    left: Left | None = None  # start of the next run, where it is asked for
+    final: FinalState | None = None  # start of the next run, where it is asked for
     reason: str = ""  # of a run without contact: why the tip did not touch
 
     @property
@@ -113,17 +113,17 @@ def make_kernel(scene: Scene, setup: Setup) -> float:
     return perf_counter() - start
 
 
-def march(scene: Scene, setup: Setup, left: Left | Worn | None = None) -> Outcome:
+def march(scene: Scene, setup: Setup, start: FinalState | Worn | None = None) -> Outcome:
     """Compute all revolutions; stop when the liner is worn through or u_r exceeds ``setup.bound``.
 
-    ``left``: end of another run, from which this one goes on, or its liner; without it a
+    ``start``: end of another run, from which this one goes on, or its liner; without it a
     blade at rest starts over an unworn liner.
     """
     kept, kernel, arguments = _start(scene, setup)
     scheme, strips, state, *_ = arguments(0)
-    first, steps, zeta = left.rounds if left else 0, setup.steps, scene.damping_ratio
-    if left:
-        begin(state, left, scheme, SCHEMES[scene.stepping.scheme], setup, zeta)
+    first, steps, zeta = start.rounds if start else 0, setup.steps, scene.damping_ratio
+    if start:
+        begin(state, start, scheme, SCHEMES[scene.stepping.scheme], setup, zeta)
     before = _stored(scene, setup, state, first * steps)
     contacts, done, end, worked = 0, 0, RUNNING, [0.0]
     each, tau, words = Rounds.unknown(scene.rounds, _worn(setup, state)), nan, [TOO_SHORT]
@@ -185,7 +185,7 @@ def march(scene: Scene, setup: Setup, left: Left | Worn | None = None) -> Outcom
         gauges=np.concatenate(gauges),
         time_constant=tau,
         trend=words[-1],
-        left=left_by(state, setup, first + done) if wanted and end == RUNNING else None,
+        final=final_state(state, setup, first + done) if wanted and end == RUNNING else None,
         reason=why_no_contact(scene, strips, state.eps_p, first + done)
         if status == "no-contact"
         else "",

@@ -16,7 +16,7 @@ from simulate.marching.setup import Setup
 
 
 @dataclass(frozen=True)
-class Left:
+class FinalState:
     """End of a run; modes and rows are padded as those of the kernel."""
 
     Omega: float  # rad/s
@@ -53,10 +53,10 @@ def rows_at(rounds: int, steps: int) -> list[int]:
     return [row, (row - 1) % TURNS]
 
 
-def left_by(state: State, setup: Setup, rounds: int) -> Left:
+def final_state(state: State, setup: Setup, rounds: int) -> FinalState:
     """End of a run after ``rounds``, since the casing began to distort."""
     motion, covered, rows = state.motion, state.covered, rows_at(rounds, setup.steps)
-    return Left(
+    return FinalState(
         Omega=setup.Omega,
         h=setup.h,
         rounds=rounds,
@@ -75,26 +75,31 @@ def left_by(state: State, setup: Setup, rounds: int) -> Left:
 
 
 def begin(
-    state: State, left: Left | Worn, scheme: Scheme, integrator: Any, setup: Setup, zeta: float
+    state: State,
+    start: FinalState | Worn,
+    scheme: Scheme,
+    integrator: Any,
+    setup: Setup,
+    zeta: float,
 ) -> None:
     """Put the end of a run into a ``state`` at rest; ``integrator``: the module of the scheme."""
-    state.eps_p[:] = left.eps_p
-    if isinstance(left, Worn):
+    state.eps_p[:] = start.eps_p
+    if isinstance(start, Worn):
         return
-    motion, rows = state.motion, rows_at(left.rounds, setup.steps)
-    if left.Omega == setup.Omega:
-        motion.x[rows], motion.y[rows], motion.u[rows] = left.x, left.y, left.u
+    motion, rows = state.motion, rows_at(start.rounds, setup.steps)
+    if start.Omega == setup.Omega:
+        motion.x[rows], motion.y[rows], motion.u[rows] = start.x, start.y, start.u
     else:
         n = setup.omega.size
-        x, y = left.x[:, :n], left.y[:, :n]
-        q, v = integrator.motion_of(left.omega, zeta, left.h, x, y)
-        q, v = (np.linalg.solve(setup.Phi, left.Phi @ part) for part in (q, v))
+        x, y = start.x[:, :n], start.y[:, :n]
+        q, v = integrator.motion_of(start.omega, zeta, start.h, x, y)
+        q, v = (np.linalg.solve(setup.Phi, start.Phi @ part) for part in (q, v))
         x, y = integrator.turns_of(setup.omega, zeta, setup.h, q, v)
         motion.x[rows, :n], motion.y[rows, :n] = x, y
         motion.u[rows] = motion.x[rows] @ scheme.Phi.T
-    motion.moved[:] = left.moved
-    state.covered.rods["part"], state.covered.rods["stored"] = left.part, left.stored
-    for name, values in zip(UNDER, left.under, strict=True):
+    motion.moved[:] = start.moved
+    state.covered.rods["part"], state.covered.rods["stored"] = start.part, start.stored
+    for name, values in zip(UNDER, start.under, strict=True):
         state.covered.strips[name] = values
-    for name, values in zip(SOLVER, left.solver, strict=True):
+    for name, values in zip(SOLVER, start.solver, strict=True):
         state.solver.strips[name] = values

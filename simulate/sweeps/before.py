@@ -7,16 +7,16 @@ import xarray as xr
 
 from geometry.project import Fault
 from rom.model import Rom
-from simulate.marching import WITH_RESULT, Left, SceneError, Worn
+from simulate.marching import WITH_RESULT, FinalState, SceneError, Worn
 from simulate.scene.scene import Scene, Start
-from simulate.sweeps.dataset import left_of, require_rom
+from simulate.sweeps.dataset import final_state_of, require_rom
 
 SAME_SPEED = 1e-9  # relative
 # Keys in which a run that goes on may differ from the one before
 MAY_DIFFER = {"speeds", "rounds", "until", "record", "peaks", "twin", "check", "start"}
 OF_LINER = ("strips", "rods_per_round", "thickness_m")  # keys that a worn liner must have alike
 
-type Before = Callable[[float], Left | Worn | None]  # start of the run at a speed, rad/s
+type Before = Callable[[float], FinalState | Worn | None]  # start of the run at a speed, rad/s
 
 
 def before(scene: Scene, rom: Rom, runs: xr.Dataset | None) -> Before:
@@ -54,32 +54,33 @@ def before(scene: Scene, rom: Rom, runs: xr.Dataset | None) -> Before:
     if faults := _differences(scene, start, Scene.model_validate_json(runs.attrs["scene"])):
         raise SceneError(*faults)
 
-    def at(Omega: float) -> Left | Worn:
+    def at(Omega: float) -> FinalState | Worn:
         given = start.speed_over_f1
         run = _run_at(runs, Omega / rom.omega1 if given is None else given, start.scene)
-        left = left_of(run)
-        return Worn(left.eps_p) if start.liner_only else left
+        final = final_state_of(run)
+        return Worn(final.eps_p) if start.liner_only else final
 
     return at
 
 
 def _differences(scene: Scene, start: Start, before: Scene) -> list[Fault]:
     """A fault for each key in which ``scene`` cannot go on from ``before``, by its ``start``."""
-    here, there = scene.model_dump(mode="json"), before.model_dump(mode="json")
+    values, values_before = scene.model_dump(mode="json"), before.model_dump(mode="json")
     if start.liner_only:
-        here, there = (
-            {"blade": of["blade"]} | {f"liner.{key}": of["liner"][key] for key in OF_LINER}
-            for of in (here, there)
+        values, values_before = (
+            {"blade": settings["blade"]}
+            | {f"liner.{key}": settings["liner"][key] for key in OF_LINER}
+            for settings in (values, values_before)
         )
     return [
         Fault(
-            f"in {start.scene}, from which it starts, it is {there[key]}; allowed the same",
+            f"in {start.scene}, from which it starts, it is {values_before[key]}; allowed the same",
             key,
-            here[key],
-            there[key],
+            values[key],
+            values_before[key],
         )
-        for key in here
-        if key not in MAY_DIFFER and here[key] != there[key]
+        for key in values
+        if key not in MAY_DIFFER and values[key] != values_before[key]
     ]
 
 

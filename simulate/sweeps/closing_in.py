@@ -57,14 +57,14 @@ def close_in(
     The spacing of the speeds on both sides of each peak is halved until it is at most
     ``scene.peaks.within_over_f1``. Limits that the runs exceed are warned of.
     """
-    known, added = runs, []
+    first_runs, added = runs, []
     while scene.peaks and (
         speeds := halfway(scene.peaks, rom.f1, runs["speed"].values, partial(peak_of, runs, rom))
     ):
         new = at_speeds(scene, rom, speeds, report, choice, start)
         runs, added = merge([runs, as_sweep(new, choice=choice, check=False)]), added + new
     if added:
-        runs = merge([known, as_sweep(added, report, choice)])
+        runs = merge([first_runs, as_sweep(added, report, choice)])
     report(checks(runs))
     warn_of(doubts_of_runs(runs).values())
     return runs

@@ -39,7 +39,7 @@ class Cost:
     rounds: int
     until: bool  # at most so many
     steps: float  # per revolution, mean over the speeds
-    beside: list[Neighbour]  # each run
+    second_runs: list[Neighbour]  # each run
     all_steps: float  # of all runs
     seconds: float  # on one core
     memory: float  # bytes, of all that is held at its end
@@ -49,11 +49,11 @@ class Cost:
 
         ``memory``: of the machine, bytes; asked from it if not given.
         """
-        names = " and ".join(run.name for run in self.beside)
-        beside = f", each with {names}" if names else ""
+        names = " and ".join(run.name for run in self.second_runs)
+        second_runs = f", each with {names}" if names else ""
         rounds = f"{'at most ' * self.until}{self.rounds} revolutions"
         said = [
-            f"{self.speeds} speeds of {rounds} of {self.steps:.6g} steps{beside}: "
+            f"{self.speeds} speeds of {rounds} of {self.steps:.6g} steps{second_runs}: "
             f"{self.all_steps:.2g} steps, some {duration(self.seconds)} on one core, "
             f"{self.memory / 1e9:.2g} GB of memory"
         ]
@@ -84,14 +84,14 @@ def cost(scene: Scene, rom: Rom, speeds: int | None = None) -> Cost:
     if not steps:  # the limit, which does not depend on the rods: arrays of many take their time
         few = scene.but(liner__rods_per_round=min(scene.liner.nu, FEW_RODS))
         steps = min(prepare(few, rom, float(np.median(Omega))).steps, MAX_STEPS)
-    beside = [run for key, run in SECOND_RUNS.items() if getattr(scene, key)]
-    all_steps = speeds * scene.rounds * steps * (1 + sum(run.cost for run in beside))
+    second_runs = [run for key, run in SECOND_RUNS.items() if getattr(scene, key)]
+    all_steps = speeds * scene.rounds * steps * (1 + sum(run.cost for run in second_runs))
     return Cost(
         speeds=speeds,
         rounds=scene.rounds,
         until=scene.until is not None,
         steps=steps,
-        beside=beside,
+        second_runs=second_runs,
         all_steps=all_steps,
         seconds=all_steps * _of_step(scene.liner, rom, steps),
         memory=_memory(speeds, scene.record, scene.liner, scene.rounds, rom.n),

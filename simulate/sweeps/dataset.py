@@ -34,7 +34,7 @@ from simulate.errors.loads import torque_of_rounds
 from simulate.errors.neighbours import GAP_CHANGE
 from simulate.errors.observables import NUMBERS, last_spectrum
 from simulate.errors.run import Run
-from simulate.marching import STATUSES, WITH_RESULT, Left, every, strip_stiffness
+from simulate.marching import STATUSES, WITH_RESULT, FinalState, every, strip_stiffness
 from simulate.marching.friction import growth_rate, mu_crit
 from simulate.scene import LEADING, Scene
 from simulate.scene.laws.table import Tabulated
@@ -152,10 +152,12 @@ RECORDED = {  # by the key of the scene's record that asks for them
     "spectrum_rounds": ("spectrum", "largest"),
     "history": ("history",),
     "states_rounds": ("states", "P"),
-    "gauges": tuple(f"gauge_{of}{part}" for of in ("strain", "stress") for part in ("", "_static")),
+    "gauges": tuple(
+        f"gauge_{what}{part}" for what in ("strain", "stress") for part in ("", "_static")
+    ),
 }
 END = "end_"  # of the variables that hold the end of a run
-OF_LEFT = {  # dimensions of each field of ``Left`` that is an array
+OF_FINAL_STATE = {  # dimensions of each field of ``FinalState`` that is an array
     "omega": ("end_mode",),
     "Phi": ("end_dof", "end_mode"),
     "x": ("end_step", "end_padded"),
@@ -270,7 +272,7 @@ def _require_runs(runs: xr.Dataset) -> None:
     if "code" in runs.attrs:  # else made by hand, for its reader
         asked = (names for key, names in RECORDED.items() if scene["record"].get(key))
         must = [*ALWAYS, *chain(*asked)]
-    held = {name: of for name, of in dims.items() if name in must or name in runs.variables}
+    held = {name: axes for name, axes in dims.items() if name in must or name in runs.variables}
     require_numbers(runs, held, STATUSES, WITH_RESULT, {*held})
 
 
@@ -291,11 +293,11 @@ def require_numbers(
     KeyError, ValueError
         If not; the message says which.
     """
-    for name, of in dims.items():
+    for name, dimensions in dims.items():
         if name not in table.variables:  # xarray makes up an index that is missing
             raise KeyError(f"no variable {name}")
-        if table[name].dims != of:
-            raise ValueError(f"{name}: dimensions {table[name].dims}, not {of}")
+        if table[name].dims != dimensions:
+            raise ValueError(f"{name}: dimensions {table[name].dims}, not {dimensions}")
         if name != "status" and table[name].dtype.kind not in "fi":
             raise ValueError(f"{name}: no numbers")
     if "status" in dims:
@@ -331,9 +333,9 @@ def statuses(dataset: xr.Dataset) -> dict[str, int]:
 
 def checks(dataset: xr.Dataset) -> str:
     """At how many speeds the error of a sweep is known, and the largest."""
-    known = dataset["error"].max("observable").dropna(SPEED) if "error" in dataset else []
-    largest = f"; largest error {float(max(known)):.2g}" if len(known) else ""
-    return f"checked at {len(known)} of {dataset.sizes[SPEED]} speeds{largest}"
+    errors = dataset["error"].max("observable").dropna(SPEED) if "error" in dataset else []
+    largest = f"; largest error {float(max(errors)):.2g}" if len(errors) else ""
+    return f"checked at {len(errors)} of {dataset.sizes[SPEED]} speeds{largest}"
 
 
 def scene_of(dataset: xr.Dataset) -> Scene:
@@ -373,11 +375,11 @@ def of_run(run: Run) -> xr.Dataset:
     values = _of_march(run) | _energies(run) | _asked_for(run)
     checks = run.scene.checked_share or run.scene.halving
     unknown = dict.fromkeys(run.scene.record.observables, np.nan) if checks else {}
-    for name, found in {"departure": run.departures, "error": run.errors}.items():
-        if by_observable := found or unknown:
+    for name, by_name in {"departure": run.departures, "error": run.errors}.items():
+        if by_observable := by_name or unknown:
             values |= {name: [*by_observable.values()], "observable": [*by_observable]}
-    left = run.outcome.left if run.scene.record.end else None
-    return _dataset(run.scene, values).assign(of_left(left) if left else {})
+    final = run.outcome.final if run.scene.record.end else None
+    return _dataset(run.scene, values).assign(of_final_state(final) if final else {})
 
 
 def _dataset(scene: Scene, values: dict[str, Any]) -> xr.Dataset:
@@ -404,23 +406,29 @@ def _dataset(scene: Scene, values: dict[str, Any]) -> xr.Dataset:
     return xr.Dataset(variables, coords)
 
 
-def of_left(left: Left) -> dict[str, tuple]:
+def of_final_state(final: FinalState) -> dict[str, tuple]:
     """Variables of a sweep, of one speed, that hold the end of its run."""
     data = {
-        f"{END}{name}": ((SPEED, *OF_LEFT.get(name, ())), np.asarray(value, float)[None])
-        for name, value in vars(left).items()
+        f"{END}{name}": ((SPEED, *OF_FINAL_STATE.get(name, ())), np.asarray(value, float)[None])
+        for name, value in vars(final).items()
     }
     # numbered, so that windows of different lengths may lie in one file
-    return data | {"end_rod": ("end_rod", np.arange(left.part.shape[1]))}
+    return data | {"end_rod": ("end_rod", np.arange(final.part.shape[1]))}
 
 
-def left_of(run: xr.Dataset) -> Left:
+def final_state_of(run: xr.Dataset) -> FinalState:
     """End of one run of a sweep."""
-    of: dict[str, Any] = {field.name: run[f"{END}{field.name}"].values for field in fields(Left)}
-    window = np.isfinite(of["part"]).all(axis=0)
-    of |= {name: of[name][:, window] for name in ("part", "stored")}
-    of |= {"Omega": float(of["Omega"]), "h": float(of["h"]), "rounds": int(of["rounds"])}
-    return Left(**of)
+    values: dict[str, Any] = {
+        field.name: run[f"{END}{field.name}"].values for field in fields(FinalState)
+    }
+    window = np.isfinite(values["part"]).all(axis=0)
+    values |= {name: values[name][:, window] for name in ("part", "stored")}
+    values |= {
+        "Omega": float(values["Omega"]),
+        "h": float(values["h"]),
+        "rounds": int(values["rounds"]),
+    }
+    return FinalState(**values)
 
 
 def course(run: xr.Dataset) -> dict[str, Any]:
@@ -432,8 +440,8 @@ def course(run: xr.Dataset) -> dict[str, Any]:
     if "trend" not in run or np.isnan(run["time_constant"]):
         return {name: run[name].item() for name in ("trend",) if name in run}
     worn = run["worn"].values[: int(run["rounds"])]
-    known = {name: run[name].item() for name in ("trend", "time_constant", "largest_round")}
-    return known | {"wears": float(worn[-ceil(len(worn) / 4) :].mean())}
+    values = {name: run[name].item() for name in ("trend", "time_constant", "largest_round")}
+    return values | {"wears": float(worn[-ceil(len(worn) / 4) :].mean())}
 
 
 def over_f1(Omega: NDArray[np.float64], rom: Rom) -> NDArray[np.float64]:
@@ -447,11 +455,11 @@ def over_f1(Omega: NDArray[np.float64], rom: Rom) -> NDArray[np.float64]:
 def _of_march(run: Run) -> dict[str, Any]:
     """Variables of every run: its set-up, how it ended, and numbers of its revolutions."""
     setup, outcome = run.setup, run.outcome
-    here, nu = np.array([setup.Omega]), len(setup.strips.d)
+    speed, nu = np.array([setup.Omega]), len(setup.strips.d)
     largest, number = outcome.each.largest
     return {
-        SPEED: over_f1(here, run.rom),
-        "speed": here,
+        SPEED: over_f1(speed, run.rom),
+        "speed": speed,
         "xi": setup.places.xi,
         "end": setup.places.ends,
         "width": setup.places.width,
@@ -481,9 +489,9 @@ def _of_march(run: Run) -> dict[str, Any]:
 
 def _energies(run: Run) -> dict[str, Any]:
     """The ledger, J; ``ENERGIES`` defines each."""
-    left_out, ledger = () if run.scene.contact.friction else BY_FRICTION, run.outcome.ledger
+    unknown, ledger = () if run.scene.contact.friction else BY_FRICTION, run.outcome.ledger
     energies = asdict(ledger) | {"numerical": ledger.numerical}
-    of_run = {name: of for name, of in energies.items() if name not in left_out}
+    of_run = {name: value for name, value in energies.items() if name not in unknown}
     return {"energy": [*of_run], "ledger": [*of_run.values()]}
 
 
@@ -502,7 +510,7 @@ def _of_friction(run: Run) -> dict[str, Any]:
 def _asked_for(run: Run) -> dict[str, Any]:
     """Outputs that the scene asks for, and those of its friction and law, with coordinates."""
     scene, record = run.scene, run.scene.record
-    made = (
+    outputs = (
         (record.wear, _of_wear),
         (record.spectrum_rounds, _of_spectrum),
         (record.history, _of_history),
@@ -513,7 +521,9 @@ def _asked_for(run: Run) -> dict[str, Any]:
         (scene.contact.friction, _of_friction),
         (isinstance(scene.liner.law, Tabulated), _of_curve),
     )
-    return {name: of for wanted, make in made if wanted for name, of in make(run).items()}
+    return {
+        name: values for wanted, make in outputs if wanted for name, values in make(run).items()
+    }
 
 
 def _of_wear(run: Run) -> dict[str, Any]:
@@ -591,7 +601,7 @@ def _of_motion(run: Run) -> dict[str, Any]:
     scene, outcome, samples = run.scene, run.outcome, run.scene.record.samples_per_round
     step = every(known(scene.record.motion, "motion"), samples, run.setup.omega, run.setup.Omega)
     edges = np.rint(np.arange(WINDOWS * scene.rounds) * samples / WINDOWS).astype(int)
-    bounds = [of.reduceat(outcome.u_r[:, 0], edges) for of in (np.minimum, np.maximum)]
+    bounds = [bound.reduceat(outcome.u_r[:, 0], edges) for bound in (np.minimum, np.maximum)]
     return {
         "motion": outcome.states[-samples:][step - 1 :: step].astype(np.float32),
         "motion_time": scene.rounds - 1 + np.arange(step, samples + 1, step) / samples,

@@ -124,11 +124,11 @@ class Engine:
         kept = sorted({order for k in sought for order in (k, *sidebands_of(k))})
         engine = cls(design, rom, choice, scenes, kept, {k: crossing(rom, k) for k in sought})
         engine.require(range(len(scenes)), partial(check_scene, rom=rom))
-        told: dict[str, str] = {}
+        warnings: dict[str, str] = {}
         for row, scene in enumerate(scenes, start=1):
             for key, line in doubts(scene, rom).items():
-                told.setdefault(key, f"row {row}: {line}")
-        warn_of(told.values())
+                warnings.setdefault(key, f"row {row}: {line}")
+        warn_of(warnings.values())
         return engine
 
     def require(self, rows: Iterable[int], check: Callable[[Scene], None]) -> None:
@@ -158,7 +158,9 @@ class Engine:
     def row_type(self) -> np.dtype:
         """Structured type of the numbers of a run."""
         lengths = {"amplitudes": (len(self.orders),)}
-        return np.dtype([(name, of, lengths.get(name, ())) for name, (of, *_) in COLUMNS.items()])
+        return np.dtype(
+            [(name, kind, lengths.get(name, ())) for name, (kind, *_) in COLUMNS.items()]
+        )
 
     def march_row(self, scene: Scene, budget: float) -> tuple[NDArray, float]:
         """Numbers of the runs of one row, speeds ascending, closed in on the peaks asked for.
@@ -169,9 +171,9 @@ class Engine:
         while speeds:
             cases = (set_up(scene, self.rom, Omega, self.choice) for Omega in speeds)
             runs += [march_one(case, self.choice) for case in cases]
-            known = self._table(runs)
+            table = self._table(runs)
             speeds = (
-                halfway(scene.peaks, self.rom.f1, known["speed"], self.peaks_among(known, scene))
+                halfway(scene.peaks, self.rom.f1, table["speed"], self.peaks_among(table, scene))
                 if scene.peaks
                 else []
             )
@@ -197,7 +199,7 @@ class Engine:
 def _numbers(run: Run, orders: Sequence[int]) -> tuple:
     """Numbers of a run by column; nan where it has not recorded them."""
     outcome = run.outcome
-    found = numbers(run) | {
+    values = numbers(run) | {
         "speed": run.setup.Omega,
         "speed_over_f1": dataset.over_f1(np.array(run.setup.Omega), run.rom),
         "status": STATUSES.index(outcome.status),
@@ -215,7 +217,7 @@ def _numbers(run: Run, orders: Sequence[int]) -> tuple:
         "seconds": run.seconds,
         "amplitudes": _amplitudes(run, orders),
     }
-    return tuple(found.get(name, np.nan) for name in COLUMNS)
+    return tuple(values.get(name, np.nan) for name in COLUMNS)
 
 
 def _amplitudes(run: Run, orders: Sequence[int]) -> NDArray[np.floating]:
@@ -263,15 +265,15 @@ def march_block(
     geometry.project.errors.SettingsError
         When the step of a row is above its limit, before any run.
     """
-    folder, keys, own = Path(folder), engine.keys, range(block, len(engine.scenes), blocks)
+    folder, keys, rows = Path(folder), engine.keys, range(block, len(engine.scenes), blocks)
     done = read_parts(folder, engine.row_type)
-    missing = [i for i in own if keys[i] not in done]
+    missing = [i for i in rows if keys[i] not in done]
     engine.require(missing, partial(check_steps, rom=engine.rom, choice=engine.choice))
     once, new, begun = {keys[i]: i for i in missing}, {}, monotonic()  # rows may stand twice
-    saved, left = begun, 0.0  # steps for checks
+    saved, budget = begun, 0.0  # steps for checks
     try:
         for count, (key, i) in enumerate(once.items(), 1):
-            new[key], left = engine.march_row(engine.scenes[i], left)
+            new[key], budget = engine.march_row(engine.scenes[i], budget)
             done[key] = new[key]
             far = progress.remaining(count, len(once), monotonic() - begun)
             report(f"{_line(i + 1, done[key])}; design {far}")
@@ -281,7 +283,7 @@ def march_block(
     finally:  # an error or Ctrl-C loses no row that is done
         if new:
             save_part(folder, new, engine.orders)
-    table = _table({i + 1: done[keys[i]] for i in own}, engine.orders)
+    table = _table({i + 1: done[keys[i]] for i in rows}, engine.orders)
     return table.assign_attrs(_attributes(engine))
 
 
@@ -293,8 +295,10 @@ def _line(row: int, runs: NDArray) -> str:
 
 def _attributes(engine: Engine) -> dict[str, Any]:
     attrs = dataset.attributes(engine.design.base, engine.rom, engine.choice)
-    own = {"format": FORMAT, "design": engine.design.path.name}
-    return {name: of for name, of in attrs.items() if name != "gap_m"} | own  # rows may differ
+    of_design = {"format": FORMAT, "design": engine.design.path.name}
+    return {
+        name: value for name, value in attrs.items() if name != "gap_m"
+    } | of_design  # rows may differ
 
 
 def merge(blocks: Sequence[xr.Dataset]) -> xr.Dataset:
@@ -309,7 +313,7 @@ def row_table(engine: Engine, runs: xr.Dataset) -> xr.Dataset:
         _of_row(engine, scene, numbers[of_row == row]) for row, scene in enumerate(engine.scenes, 1)
     ]
     variables = {
-        name: entry(dims, np.array([of[name] for of in rows]), *about)
+        name: entry(dims, np.array([row[name] for row in rows]), *about)
         for name, (dims, *about) in ROW_COLUMNS.items()
     }
     for column in engine.design.columns:
@@ -360,7 +364,7 @@ def _of_row(engine: Engine, scene: Scene, runs: NDArray) -> dict[str, Any]:
     peaks = [peak_at(k) for k in sorted(engine.crossings)]
     at_peaks = [runs[peak.index] if peak else NO_PEAK for peak in peaks]
     return {
-        **{name: [getattr(of, key, np.nan) for of in peaks] for name, key in OF_PEAK.items()},
+        **{name: [getattr(peak, key, np.nan) for peak in peaks] for name, key in OF_PEAK.items()},
         "reported": [int(peak is not None and peak.reported) for peak in peaks],
         **{name: [run[name] for run in at_peaks] for name in NO_PEAK},
         "gap": float(scene.clearance.gaps(LEADING, engine.rom.span)),
@@ -381,7 +385,7 @@ def _plain(values: Sequence[Any]) -> NDArray:
 def _table(rows: dict[int, NDArray], orders: Sequence[int]) -> xr.Dataset:
     """Dataset of the runs of ``rows``, by their numbers."""
     runs = np.concatenate([*rows.values()])
-    number = np.repeat([*rows], [len(of) for of in rows.values()]).astype(np.int32)
+    number = np.repeat([*rows], [len(table) for table in rows.values()]).astype(np.int32)
     variables = {"row": entry(("run",), number, "", "row of the design, from 1")}
     for name, (_, *about) in COLUMNS.items():
         variables[name] = entry(("run", "order")[: runs[name].ndim], runs[name], *about)
@@ -432,11 +436,11 @@ def _require_columns(table: xr.Dataset) -> None:
         When one is missing, has other dimensions, or no number in a run that has a result.
     """
     of_runs = "run" in table.sizes
-    dims = {name: of for name, (of, *_) in ROW_COLUMNS.items()}
+    dims = {name: axes for name, (axes, *_) in ROW_COLUMNS.items()}
     if of_runs:
         dims = dict.fromkeys(COLUMNS, ("run",)) | {"row": ("run",), "amplitudes": ("run", "order")}
     if "design" not in table.attrs:  # a part, of whatever columns, or made by hand
-        dims = {name: of for name, of in dims.items() if name in table}
+        dims = {name: axes for name, axes in dims.items() if name in table}
     with_result = [STATUSES.index(status) for status in WITH_RESULT]
     codes = range(-1, len(STATUSES))
     require_numbers(table, dims, codes, with_result, ALWAYS if of_runs else set())

@@ -13,7 +13,7 @@ from simulate.errors.checked import checked
 from simulate.errors.neighbours import judged
 from simulate.errors.resolution import check_resolution
 from simulate.errors.run import Case, Run
-from simulate.marching import Left, Worn, check_scene, make_kernel, prepare
+from simulate.marching import FinalState, Worn, check_scene, make_kernel, prepare
 from simulate.marching.checks import require_sweep
 from simulate.scene import Scene
 from simulate.sweeps.before import before
@@ -92,11 +92,11 @@ def at_speeds(
             report(f"time integration compiled for this scheme and law: {seconds:.1f} s")
     runs, last, begun = [], None, perf_counter()
     for done, case in enumerate(cases, 1):
-        run = march_one(replace(case, left=last or case.left), choice)
+        run = march_one(replace(case, start=last or case.start), choice)
         far = progress.remaining(done, len(cases), perf_counter() - begun)
         report(f"{run.line}; speed {far}")
         runs.append(run)
-        last = run.outcome.left if in_turn else None
+        last = run.outcome.final if in_turn else None
         if in_turn and last is None:
             break
     return runs
@@ -110,8 +110,8 @@ def as_sweep(
 ) -> xr.Dataset:
     """The ``runs`` of a scene as a dataset, speeds ascending; some are checked beforehand."""
     scene, rom = runs[0].scene, runs[0].rom
-    found, _ = checked(runs, scene.checked_share if check else 0.0, report=report)
-    merged = xr.concat([of_run(run) for run in found], dim="speed_over_f1", join="outer")
+    runs_checked, _ = checked(runs, scene.checked_share if check else 0.0, report=report)
+    merged = xr.concat([of_run(run) for run in runs_checked], dim="speed_over_f1", join="outer")
     return merged.assign_attrs(attributes(scene, rom, choice))
 
 
@@ -120,11 +120,11 @@ def set_up(
     rom: Rom,
     Omega: float,
     choice: Choice | None = None,
-    left: Left | Worn | None = None,
+    start: FinalState | Worn | None = None,
 ) -> Case:
     """``prepare``, and without a ``choice`` of the steps a check that they resolve the rub.
 
-    ``left``: start of the run.
+    ``start``: start of the run.
 
     Raises
     ------
@@ -134,15 +134,15 @@ def set_up(
     setup = prepare(scene, rom, Omega)
     if choice is None:
         check_resolution(scene, setup)
-    return Case(scene, rom, setup, left)
+    return Case(scene, rom, setup, start)
 
 
 def march_one(case: Case, choice: Choice | None = None) -> Run:
     """March one run, and its twin, companion or finer runs where the scene asks for it."""
-    start, met = perf_counter(), True
+    start, accurate = perf_counter(), True
     if choice:
         run = march_to_accuracy(case.scene, case.rom, case.setup.Omega, choice)
-        met = run.largest_error <= choice.accuracy
+        accurate = run.largest_error <= choice.accuracy
     else:
         run = case.march()
-    return replace(judged(run, met), seconds=perf_counter() - start)
+    return replace(judged(run, accurate), seconds=perf_counter() - start)

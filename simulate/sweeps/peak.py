@@ -134,14 +134,14 @@ def critical(rom: Rom, operating: Mapping[str, Any]) -> dict[str, Any]:
     """
     modes, orders = operating["modes"], operating["orders"]
     pairs = [*product([1], operating["peaks"]), *product(range(1, modes + 1), orders)]
-    found = [_crossing(rom, mode, k) for mode, k in pairs]
+    crossings = [_crossing(rom, mode, k) for mode, k in pairs]
     return {
         **operating,
         "Hz": {
             name: (rom.modes(rpm / RPM)[0][:modes] / (2 * np.pi)).tolist()
             for name, rpm in operating["lines"].items()
         },
-        "crossings": [of for of in found if not isnan(of["rpm"])],
+        "crossings": [speed for speed in crossings if not isnan(speed["rpm"])],
         "through": (RPM * rom.speeds[-2:]).tolist(),
         "up_to": BEYOND * RPM * rom.Omega_m,
     }
@@ -149,10 +149,10 @@ def critical(rom: Rom, operating: Mapping[str, Any]) -> dict[str, Any]:
 
 def _crossing(rom: Rom, mode: int, k: int) -> CriticalSpeed:
     """A crossing, nan rpm without one, and that of the quadratic: they differ above Omega_m."""
-    own, *ahead = (RPM * rom.omega1 * crossing(rom, k, mode, degree) for degree in (0, 1, 2))
-    linear, quadratic = ahead if isnan(own) else (own, own)
+    within, *beyond = (RPM * rom.omega1 * crossing(rom, k, mode, degree) for degree in (0, 1, 2))
+    linear, quadratic = beyond if isnan(within) else (within, within)
     return {
-        "what": "extrapolated crossing" if isnan(own) else "crossing",
+        "what": "extrapolated crossing" if isnan(within) else "crossing",
         "mode": mode,
         "k": k,
         "rpm": linear,
@@ -186,7 +186,7 @@ def peak_among(
     speeds: NDArray[np.float64],
     along_of: Callable[[int], NDArray[np.float64]],
     k: int,
-    at: float,
+    linear_crossing: float,
     tangential: bool,
 ) -> Peak | None:
     """Peak along engine order ``k``; None without a result near the crossing.
@@ -195,23 +195,23 @@ def peak_among(
     ----------
     speeds : (speeds,), over f1(0), ascending
     along_of : amplitudes (speeds,), over the gap, along an engine order; nan without a spectrum
-    at : linear crossing of ``k``, over f1(0)
+    linear_crossing : of ``k``, over f1(0)
     tangential : whether the scene has a tangential force
     """
     along = along_of(k)
     lowest = SOFTENED if tangential else STIFFENED
-    near = (speeds >= lowest * at) & (speeds <= HIGHEST * at)
+    near = (speeds >= lowest * linear_crossing) & (speeds <= HIGHEST * linear_crossing)
     inside = np.flatnonzero(near & np.isfinite(along))
     if len(inside) == 0:
         return None
     best = int(inside[along[inside].argmax()])
-    sidebands = [along_of(beside)[best] for beside in sidebands_of(k)]
+    sidebands = [along_of(sideband)[best] for sideband in sidebands_of(k)]
     return Peak(
         k=k,
         index=best,
         Omega_c=float(speeds[best]),
         amplitude=float(along[best]),
-        crossing=at,
+        crossing=linear_crossing,
         at_end=best in (0, len(speeds) - 1),
         clear=bool(_is_prominent(along, best) and along[best] >= max(sidebands)),
     )

@@ -29,7 +29,7 @@ from rom.coarser import coarser
 from rom.model import Rom, RomError
 from simulate.errors.bistable import LAST, change, jump, largest
 from simulate.errors.companion import FINER_TIMES, TIMES, Fineness, companion
-from simulate.errors.model_errors import Doubt
+from simulate.errors.model_errors import ModelError
 from simulate.errors.neighbour import CHAOTIC, ONE_MOTION, TWO_MOTIONS, Neighbour
 from simulate.errors.neighbours import ITSELF, TWIN, raised
 from simulate.errors.observables import Numbers, numbers
@@ -55,7 +55,7 @@ MOST_RISE = 1.0  # between two speeds: above, the sweep does not know its peak
 def results(
     runs: xr.Dataset,
     rom: Rom,
-    doubt: Doubt,
+    model_error: ModelError,
     start: xr.Dataset | None = None,
     report: Say = silent,
 ) -> list[Peak]:
@@ -65,21 +65,23 @@ def results(
     uncertainty.
     """
     scene = to_march(runs)
-    left_at = before(scene, rom, start)
-    found, peaks, start_of_all = [], asked(runs, rom), perf_counter()
+    start_at = before(scene, rom, start)
+    done_peaks, peaks, start_of_all = [], asked(runs, rom), perf_counter()
     for done, peak in enumerate(peaks, 1):
         begun = process_time()
         if peak.status in WITH_RESULT and not scene.speeds.in_turn:
             case = case_of(runs, scene, rom, peak)
-            peak = _tried(peak, replace(case, left=left_at(case.setup.Omega)), doubt)
+            peak = _with_errors(peak, replace(case, start=start_at(case.setup.Omega)), model_error)
         peak = replace(peak, seconds=process_time() - begun)
         far = progress.remaining(done, len(peaks), perf_counter() - start_of_all)
         report(f"{line(peak)}: {peak.runs} runs, {peak.seconds:.2f} s; peak {far}")
-        found.append(peak)
-    return found
+        done_peaks.append(peak)
+    return done_peaks
 
 
-def of_sweep(runs: xr.Dataset, rom: Rom, doubt: Doubt, found: list[Peak]) -> dict[str, Any]:
+def of_sweep(
+    runs: xr.Dataset, rom: Rom, model_error: ModelError, peaks: list[Peak]
+) -> dict[str, Any]:
     """Results of a sweep with its names and units, as plain values for JSON."""
     return {
         "scene": runs.attrs.get("name", ""),
@@ -90,13 +92,13 @@ def of_sweep(runs: xr.Dataset, rom: Rom, doubt: Doubt, found: list[Peak]) -> dic
         "checks": checks(runs),
         "sweep_s": float(runs["seconds"].sum()),
         "dofs": rom.n,
-        "doubt": doubt._asdict(),
-        "crossings": {str(k): at for k in CROSSED if isfinite(at := crossing(rom, k))},
+        "model_error": model_error._asdict(),
+        "crossings": {str(k): speed for k in CROSSED if isfinite(speed := crossing(rom, k))},
         "no_torque": scene_of(runs).no_torque,
         "mu_crit": float(runs["mu_crit"].min()) if "mu_crit" in runs else None,
         "reasons": sorted({*runs["reason"].values.astype(str)} - {""}) if "reason" in runs else [],
         "ends": ends(runs),
-        "peaks": [peak.plain() for peak in found],
+        "peaks": [peak.plain() for peak in peaks],
     }
 
 
@@ -121,14 +123,14 @@ def ends(runs: xr.Dataset) -> list[dict[str, Any]]:
 def _lobes(runs: xr.Dataset, index: int) -> int | None:
     """Lobes that a run has worn; None without a result, and where no wear is recorded."""
     run = runs.isel(speed_over_f1=index)
-    known = "wear" in runs and run["status"].item() in WITH_RESULT
-    return lobe_count(leading_wear(run)) if known else None
+    counted = "wear" in runs and run["status"].item() in WITH_RESULT
+    return lobe_count(leading_wear(run)) if counted else None
 
 
 def line(peak: Peak) -> str:
     """Where the peak is, and the verdict on it."""
-    of = f"EO {peak.k}" if peak.k else "no peak"
-    return f"{of} at {peak.Omega_c:.4f} f1(0), {peak.verdict or peak.status}"
+    name = f"EO {peak.k}" if peak.k else "no peak"
+    return f"{name} at {peak.Omega_c:.4f} f1(0), {peak.verdict or peak.status}"
 
 
 def to_march(runs: xr.Dataset) -> Scene:
@@ -147,13 +149,13 @@ def to_march(runs: xr.Dataset) -> Scene:
 
 def asked(runs: xr.Dataset, rom: Rom) -> list[Peak]:
     """The reported peaks; without any where the sweep responds most, else its last run."""
-    found = [*reported(runs, rom).values()]
+    peaks = [*reported(runs, rom).values()]
     speeds = runs["speed_over_f1"].values
-    if not found:
+    if not peaks:
         with_result = np.flatnonzero(runs["status"].isin(WITH_RESULT))
         last = len(speeds) - 1
         most = with_result[_response(runs)[with_result].argmax()] if len(with_result) else last
-        found = [Peak(None, int(most), float(speeds[most]))]
+        peaks = [Peak(None, int(most), float(speeds[most]))]
     return [
         replace(
             peak,
@@ -162,14 +164,14 @@ def asked(runs: xr.Dataset, rom: Rom) -> list[Peak]:
             lobes=_lobes(runs, peak.index),
             course=course(runs.isel(speed_over_f1=peak.index)),
         )
-        for peak in found
+        for peak in peaks
     ]
 
 
 def _spacing(speeds: np.ndarray, index: int) -> float | None:
     """Distance to the further neighbour; None without one."""
-    beside = np.abs(np.diff(speeds[max(index - 1, 0) : index + 2]))
-    return float(beside.max()) if len(beside) else None
+    distances = np.abs(np.diff(speeds[max(index - 1, 0) : index + 2]))
+    return float(distances.max()) if len(distances) else None
 
 
 def _response(runs: xr.Dataset) -> np.ndarray:
@@ -181,40 +183,48 @@ def _response(runs: xr.Dataset) -> np.ndarray:
     return runs["ledger"].sel(energy="casing").values
 
 
-def _tried(peak: Peak, case: Case, doubt: Doubt) -> Peak:
+def _with_errors(peak: Peak, case: Case, model_error: ModelError) -> Peak:
     """The peak with its numbers, their errors, and the verdict on it."""
     runs = []
 
-    def at(other: Neighbour) -> Numbers:
+    def numbers_of(other: Neighbour) -> Numbers:
         """Numbers of a second run, which is counted."""
         runs.append(other)
         return at_peak(case.neighbour(other), peak.k)
 
-    own = at(ITSELF)
-    parts, sides = {"twin": change(own, at(TWIN))}, None
+    first = numbers_of(ITSELF)
+    parts, sides = {"twin": change(first, numbers_of(TWIN))}, None
     along = case.scene.speeds.over_f1 is not None
-    for name, share, moves in (("model", doubt.basis, False), ("mesh", doubt.mesh, along)):
-        if share:
-            known = {of: at(raised(of, moves)) if of else own for of in (-share, 0.0, share)}
-            parts[name] = change(own, known[share], known[-share])
-            sides = sides or _sides(known, lambda of, moves=moves: at(raised(of, moves)))
+    for name, error, moves in (
+        ("model", model_error.basis, False),
+        ("mesh", model_error.mesh, along),
+    ):
+        if error:
+            by_share = {
+                share: numbers_of(raised(share, moves)) if share else first
+                for share in (-error, 0.0, error)
+            }
+            parts[name] = change(first, by_share[error], by_share[-error])
+            sides = sides or _sides(
+                by_share, lambda share, moves=moves: numbers_of(raised(share, moves))
+            )
     for name, (other, times) in _of_other_fineness(case).items():
-        changes = change(own, at(other))
+        changes = change(first, numbers_of(other))
         least = LEAST_PART * largest(changes)
-        parts[name] = {number: max(of, least) / times for number, of in changes.items()}
+        parts[name] = {number: max(size, least) / times for number, size in changes.items()}
     if peak.k and peak.spacing:
         parts["speeds"] = {"amplitude": between_speeds(peak, case.scene.damping_ratio)}
     chaotic = largest(parts["twin"]) > SENSITIVE_FROM
     return replace(
         peak,
         verdict=CHAOTIC if chaotic else TWO_MOTIONS if sides else ONE_MOTION,
-        numbers=own,
+        numbers=first,
         errors={
-            name: value * hypot(*filter(isfinite, (of.get(name, 0.0) for of in parts.values())))
-            for name, value in own.items()
+            name: value * hypot(*filter(isfinite, (part.get(name, 0.0) for part in parts.values())))
+            for name, value in first.items()
         },
-        # of the run that differs most from the own one
-        other=max(sides, key=lambda of: largest(change(own, of))) if sides else {},
+        # of the run that differs most from the first
+        other=max(sides, key=lambda side: largest(change(first, side))) if sides else {},
         parts=parts,
         runs=len(runs),
     )
@@ -223,7 +233,7 @@ def _tried(peak: Peak, case: Case, doubt: Doubt) -> Peak:
 def case_of(runs: xr.Dataset, scene: Scene, rom: Rom, peak: Peak) -> Case:
     """The sweep's run at a peak, from rest, as long as there; ``scene``: as of ``to_march``."""
     names = ("speed", "steps_per_round", "rounds")
-    Omega, steps, rounds = (float(runs[of][peak.index]) for of in names)
+    Omega, steps, rounds = (float(runs[name][peak.index]) for name in names)
     return Case(as_long(scene, rounds), rom, prepare(scene, rom, Omega, int(steps)))
 
 
@@ -232,9 +242,9 @@ def at_peak(case: Case, k: int | None) -> Numbers:
     run = case.march()
     if run.outcome.status not in WITH_RESULT:
         return {}
-    found = numbers(run, k)
+    values = numbers(run, k)
     names = OF_MOTION | (OF_CONTACT if case.scene.liner.law.touches else {})
-    return {name: found[of] for name, of in names.items() if of in found}
+    return {name: values[key] for name, key in names.items() if key in values}
 
 
 def _of_other_fineness(case: Case) -> dict[str, tuple[Neighbour, float]]:
@@ -243,7 +253,7 @@ def _of_other_fineness(case: Case) -> dict[str, tuple[Neighbour, float]]:
     None where there are none. A rigid casing takes no more strips than patches: there one run is
     coarser in all.
     """
-    if case.scene.stepping.scheme != "piecewise-exact" or case.left is not None:
+    if case.scene.stepping.scheme != "piecewise-exact" or case.start is not None:
         return {}
     try:
         coarse, _ = coarser(case.rom)
@@ -269,13 +279,15 @@ def between_speeds(peak: Peak, zeta: float) -> float:
     return rise if rise <= MOST_RISE else inf
 
 
-def _sides(known: dict[float, Numbers], at: Callable[[float], Numbers]) -> list[Numbers] | None:
+def _sides(
+    by_share: dict[float, Numbers], numbers_at: Callable[[float], Numbers]
+) -> list[Numbers] | None:
     """Numbers on both sides of a jump of those that tell motions apart; None without one.
 
-    ``at``: numbers of the model raised by a share. Models that differ by more than ``LAST`` are not
+    ``numbers_at``: of the model raised by a share. Models that differ by more than ``LAST`` are not
     looked between, but those that differ by that.
     """
-    if max(known) > LAST:
-        known = {share: at(share) if share else known[0.0] for share in CLOSE}
-    found = jump(at, known)  # adds the runs in between to ``known``
-    return list(known.values()) if found else None
+    if max(by_share) > LAST:
+        by_share = {share: numbers_at(share) if share else by_share[0.0] for share in CLOSE}
+    both = jump(numbers_at, by_share)  # adds the runs in between to ``by_share``
+    return list(by_share.values()) if both else None

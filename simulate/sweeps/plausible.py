@@ -23,7 +23,7 @@ STEEP = 0.2  # slope of the tip, 11 deg
 SOFT = 1e6  # Pa: rubber; stiffer than 1e13 is refused
 IN_RADIANS = 2 * np.pi + 1e-2
 
-type Doubt = tuple[bool, str, str]  # whether a value is doubtful, its key, and the line of it
+type Implausible = tuple[bool, str, str]  # whether a value is doubtful, its key, and the line of it
 
 
 class SceneWarning(Caution):
@@ -63,7 +63,7 @@ def doubts_of_runs(runs: xr.Dataset) -> dict[str, str]:
     }
 
 
-def _of_motion(slowest: float, xi: float) -> list[Doubt]:
+def _of_motion(slowest: float, xi: float) -> list[Implausible]:
     return [
         (
             slowest < SLOWEST,
@@ -80,7 +80,7 @@ def _of_motion(slowest: float, xi: float) -> list[Doubt]:
     ]
 
 
-def _of_gap(widest: float, span: float) -> list[Doubt]:
+def _of_gap(widest: float, span: float) -> list[Implausible]:
     return [
         (
             widest > WIDE * span,
@@ -91,18 +91,18 @@ def _of_gap(widest: float, span: float) -> list[Doubt]:
     ]
 
 
-def _of_casing(casing: Casing, gap: float, rounds: float) -> list[Doubt]:
+def _of_casing(casing: Casing, gap: float, rounds: float) -> list[Implausible]:
     gaps = [harmonic.amplitude_gaps or 0.0 for harmonic in casing.harmonics or []]
     end, ramp = casing.table.theta_deg[-1] if casing.table else inf, casing.ramp_rounds or 0.0
     return [
         *(
             (
-                of > MANY_GAPS,
+                amplitude > MANY_GAPS,
                 "casing",
-                f"casing.harmonics: amplitude_gaps: {of:g}: that many gaps, of {1e6 * gap:.3g} um; "
-                "150 % of the gap would be 1.5",
+                f"casing.harmonics: amplitude_gaps: {amplitude:g}: that many gaps, of "
+                f"{1e6 * gap:.3g} um; 150 % of the gap would be 1.5",
             )
-            for of in gaps
+            for amplitude in gaps
         ),
         (
             end <= IN_RADIANS,
@@ -118,7 +118,7 @@ def _of_casing(casing: Casing, gap: float, rounds: float) -> list[Doubt]:
     ]
 
 
-def _of_tip(profile: Profile | None) -> list[Doubt]:
+def _of_tip(profile: Profile | None) -> list[Implausible]:
     tilt = profile.tilt if profile else 0.0
     degrees, slope = np.degrees(np.arctan(tilt)), np.tan(np.radians(tilt))
     return [
@@ -131,7 +131,7 @@ def _of_tip(profile: Profile | None) -> list[Doubt]:
     ]
 
 
-def _of_liner(liner: Liner, rom: Rom) -> list[Doubt]:
+def _of_liner(liner: Liner, rom: Rom) -> list[Implausible]:
     law, (r, theta, z) = liner.law, rom.camber.T
     chord = float(np.hypot(np.ptp(r * theta), np.ptp(z)))
     deforms = law.touches and law.deforms

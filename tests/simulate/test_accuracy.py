@@ -35,7 +35,7 @@ from simulate.errors.companion import (
     quick_times,
     with_errors,
 )
-from simulate.errors.model_errors import Doubt, ModelErrors
+from simulate.errors.model_errors import ModelError, ModelErrors
 from simulate.errors.observables import differences
 from simulate.errors.run import Case, Run
 from simulate.marching import SceneError, march, prepare
@@ -155,7 +155,7 @@ class Drawn(NamedTuple):
 def carried_out(case, models, taken):
     """Run a drawn scene; errors against runs finer in patches, modes, steps, rods and strips."""
     speeds = case.speeds.omega(models.own.f1)
-    choice = choose(case, models.own, Doubt(0.0, None))
+    choice = choose(case, models.own, ModelError(0.0, None))
     chosen = choice.scene(case)
     runs = [march_one(set_up(chosen, models.own, Omega, choice), choice) for Omega in speeds]
     steps = sum(taken)
@@ -216,7 +216,7 @@ def test_a_demand_is_met_where_a_finer_one_is(seed, E, K, reference):
     case, met = case.but(liner__law__E=E, liner__law__K=K), []
     for asked in (0.1, 0.05, 0.03, 0.02, 0.01):
         try:
-            choose(case.but(accuracy=asked), reference.own, Doubt(0.0, None))
+            choose(case.but(accuracy=asked), reference.own, ModelError(0.0, None))
             met.append(True)
         except SceneError:
             met.append(False)
@@ -227,7 +227,7 @@ def test_a_demand_is_met_where_a_finer_one_is(seed, E, K, reference):
 def asking(reference):
     """A small scene with an accuracy, its model, its choice, a speed, the coarser model."""
     case = scene(**TO_CHOOSE, accuracy=ASKED, speeds={"over_f1": [0.3, 0.33]})
-    rom, choice = reference.own, choose(case, reference.own, Doubt(0.001, 0.002))
+    rom, choice = reference.own, choose(case, reference.own, ModelError(0.001, 0.002))
     return case, rom, choice, case.speeds.omega(rom.f1)[0], coarser(rom)
 
 
@@ -362,7 +362,7 @@ HARD = {"liner__law__E": 7.0, "liner__law__K": 4.55, "liner__law__unit_Pa": 8e9}
 def test_too_few_patches_are_refused(asking, paper_reduced, patches, changes, kind, key):
     case, rom, *_ = asking
     models = {0: paper_reduced[0], 8: coarser(rom)[0], 16: rom}
-    error = refused(kind, choose, case.but(**changes), models[patches], Doubt(0.0, None))
+    error = refused(kind, choose, case.but(**changes), models[patches], ModelError(0.0, None))
     assert (error.key, error.value) == (key, 0.01 if key else None)
 
 
@@ -372,7 +372,7 @@ def test_strips_whose_error_exceeds_the_accuracy_are_refused(asking, monkeypatch
     parts = Parts(step=0.0, strips=0.2, model=0.0)
     monkeypatch.setattr(accuracy, "error_by_part", lambda run, coarse: parts)
     monkeypatch.setattr(accuracy, "MOST_STRIPS", 16)
-    error = refused(SceneError, choose, case.but(accuracy=0.005), rom, Doubt(0.0, None))
+    error = refused(SceneError, choose, case.but(accuracy=0.005), rom, ModelError(0.0, None))
     assert (error.key, error.value) == ("accuracy", 0.005) and "16 strips" in error.text
 
 

@@ -81,7 +81,7 @@ def test_a_run_that_goes_on_touches_when_the_casing_comes(coarse_rom):
 
 def test_a_moving_blade_that_touches_no_more_is_ok(coarse_rom):
     """A run goes on in a casing out of reach, and rings down from what the first one left."""
-    left = marched(record_end(), coarse_rom).left
+    left = marched(record_end(), coarse_rom).final
     away = record_end(
         casing__harmonics=[{"order": 0, "amplitude_m": 0.0}],
         clearance={"leading_edge_over_span": 0.01, "trailing_edge_over_span": 0.01},

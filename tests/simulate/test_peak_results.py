@@ -10,7 +10,7 @@ from scenes import of_steps, scene
 from simulate.errors.bistable import change, jump, largest
 from simulate.errors.companion import Fineness
 from simulate.errors.loads import torque
-from simulate.errors.model_errors import Doubt
+from simulate.errors.model_errors import ModelError
 from simulate.errors.neighbour import CHAOTIC, ONE_MOTION, TWO_MOTIONS
 from simulate.errors.neighbours import raised
 from simulate.errors.observables import NUMBERS
@@ -27,7 +27,7 @@ from simulate.sweeps.peak_results import (
     to_march,
 )
 
-CALM = Doubt(basis=4e-5, mesh=None)
+CALM = ModelError(basis=4e-5, mesh=None)
 # An elastic liner that a casing of four lobes presses near the blade's own frequency: the response
 # stiffens and grows with the speed, and falls from one motion to another.
 FOLD = {
@@ -93,20 +93,20 @@ HARD = {
     "speeds": {"over_f1": [0.35]},  # departs by 3 % at least, whatever the last digits of the model
     "twin": True,  # heard before the energy that these steps lose
 }
-SCENES = {  # scene, doubt, the word, and what the uncertainty of the amplitude is
+SCENES = {  # scene, errors of the model, the word, and what the uncertainty of the amplitude is
     "far from the fold": (FAR, CALM, ONE_MOTION, "model", (0.0, np.inf)),
     # frequencies uncertain by a tenth: the resonance passes the speed, and its fold with it
-    "on a coarse mesh": (FAR, Doubt(None, 0.02), ONE_MOTION, "mesh", (0.0, 0.5)),
-    "on a very coarse mesh": (FAR, Doubt(None, 0.1), ONE_MOTION, "mesh", (0.5, np.inf)),
-    "steep": (FOLD | STEEP, Doubt(1e-3, None), ONE_MOTION, "model", (0.1, np.inf)),
+    "on a coarse mesh": (FAR, ModelError(None, 0.02), ONE_MOTION, "mesh", (0.0, 0.5)),
+    "on a very coarse mesh": (FAR, ModelError(None, 0.1), ONE_MOTION, "mesh", (0.5, np.inf)),
+    "steep": (FOLD | STEEP, ModelError(1e-3, None), ONE_MOTION, "model", (0.1, np.inf)),
     "hard": (HARD, CALM, CHAOTIC, "model", (0.0, np.inf)),
 }
 
 
 @pytest.mark.parametrize("name", SCENES)
 def test_a_peak_has_one_motion_or_is_not_predictable(coarse_rom, name):
-    case, doubt, verdict, part, (least, most) = SCENES[name]
-    (peak,) = results(swept(scene(**case), coarse_rom), coarse_rom, doubt)
+    case, model_error, verdict, part, (least, most) = SCENES[name]
+    (peak,) = results(swept(scene(**case), coarse_rom), coarse_rom, model_error)
     assert peak.verdict == verdict
     if verdict == ONE_MOTION:
         assert least < peak.parts[part]["amplitude"] <= most and peak.other == {}
@@ -117,7 +117,7 @@ def test_a_jump_within_the_last_digits_is_found_with_a_coarse_mesh(edge, coarse_
     """At the same speed, as where a scene gives speeds in rad/s: the fold does not go along."""
     Omega = float(scene(**FOLD).speeds.omega(coarse_rom.f1)[0])
     case = scene(**FOLD | {"speeds": {"rad_s": [Omega]}})
-    (peak,) = results(as_sweep(at_speeds(case, edge, [Omega])), edge, Doubt(None, 0.02))
+    (peak,) = results(as_sweep(at_speeds(case, edge, [Omega])), edge, ModelError(None, 0.02))
     assert peak.verdict == TWO_MOTIONS
 
 
@@ -177,7 +177,7 @@ def test_results_tell_of_the_sweep_and_its_model(worn, coarse_rom):
 @pytest.fixture(scope="module")
 def known(worn, coarse_rom):
     """The peaks of the sweep, with their uncertainty."""
-    return results(worn, coarse_rom, Doubt(1e-4, 1e-3))
+    return results(worn, coarse_rom, ModelError(1e-4, 1e-3))
 
 
 def test_uncertainty_is_the_root_of_squares_of_its_parts(known):

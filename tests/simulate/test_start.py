@@ -9,10 +9,10 @@ from refused import refused
 from runs import set_up
 from scenes import SCHEMES, scene
 
-from simulate.marching import Left, SceneError, march
+from simulate.marching import FinalState, SceneError, march
 from simulate.sweeps import dataset
 from simulate.sweeps.closing_in import sweep
-from simulate.sweeps.dataset import left_of, of_left
+from simulate.sweeps.dataset import final_state_of, of_final_state
 
 LAWS = {
     "plastic": {"kind": "plastic", "E": 1.0, "K": 0.45, "sigma_Y": 1e-8, "unit_Pa": 2e9},
@@ -59,7 +59,7 @@ def test_a_run_goes_on_to_the_last_bit(scheme, changes, coarse_rom, tmp_path):
         parts = [part[name].values for part in (first, then)]
         np.testing.assert_array_equal(np.concatenate(parts, axis=over_time), whole[name].values)
     assert whole["status"].values.tolist() == then["status"].values.tolist() == ["ok"]
-    for name in ("wear", *(f"end_{field.name}" for field in fields(Left))):
+    for name in ("wear", *(f"end_{field.name}" for field in fields(FinalState))):
         np.testing.assert_array_equal(then[name].values, whole[name].values, err_msg=name)
 
 
@@ -85,7 +85,7 @@ def test_the_ledger_of_the_parts_is_that_of_the_whole(scheme, coarse_rom, tmp_pa
 def test_at_another_speed_the_blade_keeps_its_displacement_and_velocity(scheme, coarse_rom):
     case = made(scheme)
     setups = [set_up(case, coarse_rom, over_f1) for over_f1 in (0.3, 0.302)]
-    left = march(case, setups[0]).left
+    left = march(case, setups[0]).final
     still = march(case.but(rounds=1, liner__law={"kind": "none"}), setups[1], left)
     # the first sample is a 64th of a round later: u goes on without a jump
     u = still.u_r[0, 0] - (setups[0].Phi_out @ left.x[0, : len(left.omega)])[0]
@@ -128,8 +128,8 @@ def test_a_twin_goes_on_from_the_same_end(coarse_rom):
 def test_windows_of_different_lengths_lie_in_one_file(coarse_rom):
     one = sweep(made("central-difference"), coarse_rom).isel(speed_over_f1=0)
     padded = one.pad(end_rod=(0, 3))
-    np.testing.assert_array_equal(left_of(padded).stored, left_of(one).stored)
-    assert of_left(left_of(one)).keys() >= {"end_stored", "end_part", "end_rod"}
+    np.testing.assert_array_equal(final_state_of(padded).stored, final_state_of(one).stored)
+    assert of_final_state(final_state_of(one)).keys() >= {"end_stored", "end_part", "end_rod"}
 
 
 START = {"start": {"scene": "before"}}

@@ -131,7 +131,7 @@ def answer(
             record={"samples_per_round": SAMPLES, "history": {"chord": [0.5]}, "end": True},
         )
         outcome = march(scene, prepare(scene, rom, w), left)
-        left = outcome.left
+        left = outcome.final
     return peak_and_first(outcome.u_r[-SAMPLES:, 1] + (forced * turn).real)
 
 

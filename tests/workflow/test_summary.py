@@ -53,7 +53,7 @@ OF = {
         {"over_f1": 0.2, "status": "ok", "lobes": 2, "gaps_m": []},
         {"over_f1": 0.4, "status": "sensitive", "lobes": None, "gaps_m": [5e-5, 6e-5]},
     ],
-    "doubt": {"basis": 1e-4, "mesh": 9e-4},
+    "model_error": {"basis": 1e-4, "mesh": 9e-4},
     "no_torque": None,
     "mu_crit": None,
     "peaks": [ANSWER],
@@ -134,9 +134,11 @@ def test_scenes_with_results_that_are_left_out_are_named(summed):
 
 
 def test_what_is_not_known_is_said(summed):
-    doubt = {"basis": 1e-4, "mesh": None}
+    model_error = {"basis": 1e-4, "mesh": None}
     numbers = {name: NUMBERS[name] for name in ("amplitude", "force")}
-    found = summed({"numbers": numbers, "errors": {}}, doubt=doubt, no_torque="a reason")
+    found = summed(
+        {"numbers": numbers, "errors": {}}, model_error=model_error, no_torque="a reason"
+    )
     text = summary.terminal(found)
     assert all(what in text for what in ("mesh", "stress at 4200 rpm, ", "torque (a reason)"))
     assert cells(found)[2] == "40 (no ±)" and "170 (no ±)" in cells(found)
@@ -162,7 +164,7 @@ def test_scene_says_its_model_its_crossings_and_what_its_ends_show(summed):
         "Ends of the sweep: 2400 rpm (0.200): 2 lobes; 4800 rpm (0.400): gap 50.0 and 60.0 µm at "
         "ξ = 1/16 and 15/16, sensitive.",
     ]
-    (foreign,) = summed(doubt={"basis": None, "mesh": None}, crossings={}, ends=[])["scenes"]
+    (foreign,) = summed(model_error={"basis": None, "mesh": None}, crossings={}, ends=[])["scenes"]
     assert "76 DoFs; runs" in summary.about(foreign)
     assert not any("rpm (" in note for note in summary.notes(foreign))
 
@@ -191,7 +193,7 @@ def test_the_worst_stress_of_all_speeds_is_told_with_its_node(summed):
 def test_an_error_known_in_part_is_at_least_so_large(summed):
     """Of the mesh nothing is known, or between the speeds of the sweep, of the amplitude alone."""
     assert {"4200 ≥5.2", "40 ≥5%", "70 ≥5% (rev. 17)", "170 ≥5%"} <= {
-        *cells(summed(doubt={"basis": 1e-4, "mesh": None}))
+        *cells(summed(model_error={"basis": 1e-4, "mesh": None}))
     }
     between = {"parts": ANSWER["parts"] | {"speeds": {"amplitude": None}}}
     assert {"40 ≥5%", "70 ±5% (rev. 17)", "170 ±5%"} <= {*cells(summed(between))}

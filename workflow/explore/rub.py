@@ -18,7 +18,7 @@ from simulate.contact.gaps import gaps_at
 from simulate.contact.places import share_weights
 from simulate.contact.ramp import ramp_of
 from simulate.errors.accuracy import Choice
-from simulate.marching import Left, Outcome, Setup, Worn, check_scene, march, prepare
+from simulate.marching import FinalState, Outcome, Setup, Worn, check_scene, march, prepare
 from simulate.scene import LEADING, Record, Scene
 from simulate.sweeps.before import before
 from workflow.figures import style
@@ -94,13 +94,13 @@ def by_rounds(
     )
     setup = prepare(one, rom, Omega)
     outcomes: list[Outcome] = []
-    while len(outcomes) < scene.rounds and (not outcomes or outcomes[-1].left):
-        outcomes.append(march(one, setup, outcomes[-1].left if outcomes else first))
+    while len(outcomes) < scene.rounds and (not outcomes or outcomes[-1].final):
+        outcomes.append(march(one, setup, outcomes[-1].final if outcomes else first))
     return _rub(scene, rom, setup, outcomes, first)
 
 
 def _rub(
-    scene: Scene, rom: Rom, setup: Setup, outcomes: list[Outcome], first: Left | Worn | None
+    scene: Scene, rom: Rom, setup: Setup, outcomes: list[Outcome], first: FinalState | Worn | None
 ) -> Rub:
     given, nu = float(scene.clearance.gaps(LEADING, rom.span)), setup.strips.d.size
     gap = float(gaps_at(scene.clearance, rom, LEADING, setup.Omega))
@@ -119,7 +119,7 @@ def _rub(
     return Rub(
         speed=setup.Omega / rom.omega1,
         tip=float(rom.line(np.array([LEADING]))[0, 1]),
-        ended=None if rounds == scene.rounds and outcomes[-1].left else outcomes[-1].status,
+        ended=None if rounds == scene.rounds and outcomes[-1].final else outcomes[-1].status,
         inward=inward,
         travels=bool(scene.casing.travelling),
         share=ramp_of(scene.casing).at(times).reshape(u_r.shape),

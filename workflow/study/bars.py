@@ -8,7 +8,7 @@ from statistics import median
 import xarray as xr
 
 from rom.model import Rom
-from simulate.errors.model_errors import Doubt
+from simulate.errors.model_errors import ModelError
 from simulate.errors.run import Case
 from simulate.marching import prepare
 from simulate.sweeps.peak import Peak
@@ -25,7 +25,7 @@ def held(runs: xr.Dataset, rom: Rom, reference: Marched | None) -> dict[str, flo
     """
     if reference is None:
         return {}
-    peaks = [peak for peak in results(runs, rom, Doubt(None, None)) if peak.k]
+    peaks = [peak for peak in results(runs, rom, ModelError(None, None)) if peak.k]
     off, said = [], []
     for peak in peaks:
         true = _true(peak, reference)

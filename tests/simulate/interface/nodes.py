@@ -116,8 +116,8 @@ def _march(case: Scene, rom: Rom, Omega: float, moves: Moves, nodes: Nodes) -> O
         done = march(narrow, setup, left)
         u_r.append(done.u_r)
         worn = np.zeros((STATIONS + 1, case.liner.rods_per_round))
-        np.maximum.at(worn, nodes.station, done.left.eps_p)
-        left = replace(done.left, eps_p=worn[nodes.station])
+        np.maximum.at(worn, nodes.station, done.final.eps_p)
+        left = replace(done.final, eps_p=worn[nodes.station])
     wear = case.liner.thickness_m * worn
     whole = replace(done, u_r=np.concatenate(u_r), wear=wear, ends=_ends())
     return observables(Run(case, rom, setup, outcome=whole))
