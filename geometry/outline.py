@@ -1,6 +1,7 @@
-"""Checks of sections as a table gives them: whole outlines without spikes, in line along the blade.
+"""Area of outlines; checks of sections as a table gives them: whole, in line along the blade.
 
-Each names the section that is at fault. Without them the mesh fails, or the blade is another one.
+Outlines are to be without gaps and spikes. Each check names the section that is at fault; without
+the checks the mesh fails, or the blade is another one.
 """
 
 import numpy as np

@@ -127,8 +127,8 @@ def _cut(name: str, outline: NDArray, share: float) -> CutSection:
     nearness = (1 - np.cos(np.linspace(0, np.pi, STATIONS))) / 2
     stations = share + (1 - 2 * share) * nearness
     sides = [_at_stations(name, side, stations) for side in (suction, pressure)]
-    kept = np.vstack([sides[0], sides[1][::-1]])
-    removed = 1 - abs(enclosed(*kept[:, 1:].T) / enclosed(*outline[:, 1:].T))  # along the radius
+    kept = np.vstack([sides[0], sides[1][::-1]])  # both areas are seen along the radius
+    removed = 1 - abs(enclosed(*kept[:, 1:].T) / enclosed(*outline[:, 1:].T))
     cut = CutSection(name, *sides, float(removed))
     along = suction[-1] - suction[0]
     ahead = np.cross([1.0, 0, 0], along) * -1.0
