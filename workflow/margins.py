@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from math import isfinite
 from typing import Any, TypedDict
 
-from simulate.sweeps.critical_speed import CriticalSpeed
+from simulate.sweeps.plain import CriticalSpeed
 from workflow import markdown
 
 WITHIN = 0.25  # of the operating speed: tables have the speeds within it

@@ -13,6 +13,7 @@ from geometry.blade import RPM_PER_HZ
 from geometry.project import csv_text, read_json
 from simulate.errors.neighbour import CHAOTIC, ONE_MOTION, TWO_MOTIONS
 from simulate.scene import DYING_OUT, GROWING, TRENDS
+from simulate.sweeps.plain import Course
 from workflow import margins, markdown
 from workflow.markdown import Number
 
@@ -100,7 +101,7 @@ COPIED = (
     *("checks", "model_error", "no_torque", "mu_crit", "sweep_s"),
 )
 
-COURSE = {  # of ``dataset.course``: unit and its scale from SI
+COURSE = {  # of ``Course``: unit and its scale from SI
     "time_constant": ("rounds", 1.0),
     "largest_round": ("round", 1.0),
     "wears": ("mm3 per round", 1e9),
@@ -117,7 +118,7 @@ class PeakRow(margins.Speed):
     status: str
     word: str  # verdict of second runs, else the status
     lobes: int | None
-    course: dict[str, Any]  # as of ``dataset.course``
+    course: Course
     unknown: dict[str, list[str]]  # parts of the uncertainty of ``ALL`` numbers, or of one
     over_gap: dict[str, float | None]  # amplitude and wear over the gap, as figures have them
     values: dict[str, float]
@@ -163,7 +164,7 @@ def _scene(
     rows = [_row(results, peak, stress_by_speed.get(peak.Omega_c, {})) for peak in found]
     rub_peaks = [
         margins.Critical(
-            what=f"rub peak ({row['course']['trend']})" if moves(row) else "rub peak",
+            what=f"rub peak ({row['course'].get('trend')})" if moves(row) else "rub peak",
             mode=None,
             k=row["k"],
             rpm=row["rpm"],
@@ -361,7 +362,7 @@ def _cell(row: PeakRow, column: Column) -> str:
         return "-"
     number = column.number(value, error, least=_in_part(row, column.name))
     further = "" if other is None else f" or {column.number(other, error).shown}"
-    goes_on = f", {row['course']['trend']}" if column.name == "amplitude" and moves(row) else ""
+    goes_on = f", {row['course'].get('trend')}" if column.name == "amplitude" and moves(row) else ""
     revolution = row["course"].get("largest_round") if column.name == "displacement" else None
     revolution_text = f" (rev. {revolution:.0f})" if revolution else ""
     return f"{number.shown}{further} {number.share}{goes_on}".rstrip() + revolution_text
@@ -382,7 +383,7 @@ def moves(row: PeakRow) -> bool:
 def _end_of_run(row: PeakRow) -> list[str]:
     """Whether the motion is steady, its time constant, and the wear still going on."""
     course = row["course"]
-    numbers = course.get("time_constant"), course.get("wears") and 1e9 * course["wears"]
+    numbers = course.get("time_constant"), (wears := course.get("wears")) and 1e9 * wears
     texts = [
         markdown.cell(number) if number is None or isfinite(number) else "-" for number in numbers
     ]

@@ -38,6 +38,7 @@ from simulate.marching import STATUSES, WITH_RESULT, FinalState, every, strip_st
 from simulate.marching.friction import growth_rate, mu_crit
 from simulate.scene import LEADING, Scene
 from simulate.scene.laws.table import Tabulated
+from simulate.sweeps.plain import Course
 
 type Entry = tuple[str | tuple[str, ...], Any, dict[str, Any]]
 
@@ -431,17 +432,19 @@ def final_state_of(run: xr.Dataset) -> FinalState:
     return FinalState(**values)
 
 
-def course(run: xr.Dataset) -> dict[str, Any]:
-    """How one run of a sweep went on to its end: as its variables, and `wears`, m3 in a revolution.
-
-    The latter is the mean of the last quarter. Of a run that ended early the trend alone; empty for
-    runs made by hand.
-    """
-    if "trend" not in run or np.isnan(run["time_constant"]):
-        return {name: run[name].item() for name in ("trend",) if name in run}
+def course(run: xr.Dataset) -> Course:
+    """How one run of a sweep went on to its end; empty for runs made by hand."""
+    if "trend" not in run:
+        return {}
+    if np.isnan(run["time_constant"]):
+        return {"trend": run["trend"].item()}
     worn = run["worn"].values[: int(run["rounds"])]
-    values = {name: run[name].item() for name in ("trend", "time_constant", "largest_round")}
-    return values | {"wears": float(worn[-ceil(len(worn) / 4) :].mean())}
+    return {
+        "trend": run["trend"].item(),
+        "time_constant": run["time_constant"].item(),
+        "largest_round": run["largest_round"].item(),
+        "wears": float(worn[-ceil(len(worn) / 4) :].mean()),
+    }
 
 
 def over_f1(Omega: NDArray[np.float64], rom: Rom) -> NDArray[np.float64]:

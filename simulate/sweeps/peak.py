@@ -21,8 +21,8 @@ from rom.model import Rom
 from simulate.errors.observables import Numbers
 from simulate.errors.signals import amplitude, leading_gap
 from simulate.scene import BESIDE
-from simulate.sweeps.critical_speed import CriticalSpeed
 from simulate.sweeps.dataset import scene_of
+from simulate.sweeps.plain import Course, CriticalSpeed
 
 ORDERS = range(3, 15)  # engine orders along which peaks are sought, beside those of a scene
 # Speeds over the crossing at which a peak may lie: contact stiffens, a tangential force may soften
@@ -55,7 +55,7 @@ class Peak:
     spacing: float | None = None  # over f1(0), to the further neighbour in the sweep
     status: str = ""
     lobes: int | None = None  # worn there, of the leading eighth; None where no wear is recorded
-    course: dict[str, Any] = field(default_factory=dict, hash=False)  # ``dataset.course`` there
+    course: Course = field(default_factory=Course, hash=False)
     verdict: str = ""  # of second runs (``neighbour``); empty without them
     numbers: Numbers = field(default_factory=dict, hash=False)  # in the units of ``NUMBERS``
     errors: Numbers = field(default_factory=dict, hash=False)  # of each number, in its unit

@@ -71,8 +71,9 @@ class Tipped:
 def tipped(mesh: meshio.Mesh, rom: Rom) -> Tipped:
     """The blade of a mesh, with the patches of its reduced model."""
     facets = mesh.cells_dict["triangle6"][mesh.cell_sets_dict["tip"]["triangle6"]]
-    tip = tip_of(facets, mesh.points)
-    return Tipped(views.solid(mesh), facets, tip, rom.xi)
+    return Tipped(
+        solid=views.solid(mesh), facets=facets, tip=tip_of(facets, mesh.points), nodes=rom.xi
+    )
 
 
 @style.styled

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from rom.check import RomCheck
 from rom.model import Rom
-from simulate.sweeps.critical_speed import CriticalSpeed
 from simulate.sweeps.peak import BEYOND, critical
+from simulate.sweeps.plain import CriticalSpeed
 from workflow import margins
 from workflow.figures import style, units
 from workflow.figures.marks import engine_order, frequencies_over_speed, operating_lines
@@ -48,7 +48,7 @@ def draw(
         style.note(every, (every.get_xlim()[1], last), str(mode), (5, 0), va="center")
     every.set_ylim(0, 1.2 * modes.max())
     # the error of the mesh is not known
-    rows = [row | {"rpm_error": None} for row in margins.rows(campbell)]
+    rows: list[margins.Margin] = [{**row, "rpm_error": None} for row in margins.rows(campbell)]
     shown = margins.near(rows) if lines else campbell["crossings"]
     both = units.both(printed, rom.f1)
     for axes, orders, first_mode in ((first, ENGINE_ORDERS, True), (every, OVER_ALL, False)):

@@ -110,8 +110,11 @@ class Response:
         Norms are first where the scene gives its speeds in them, as the paper does; a scene that
         gives them in rad/s is shown in rpm and micrometres.
         """
-        norms = self.scene.speeds.unit == "over_f1"
-        return units.both(norms, self.rom.f1, leading_gap(self.sweep))
+        return units.both(
+            norms=self.scene.speeds.unit == "over_f1",
+            f1_Hz=self.rom.f1,
+            gap_m=leading_gap(self.sweep),
+        )
 
     @property
     def names(self) -> str:
