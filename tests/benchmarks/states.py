@@ -25,15 +25,15 @@ from tempfile import TemporaryDirectory
 ROOT = Path(__file__).resolve().parents[2]
 KEPT = Path(__file__).with_suffix(".csv")
 HEADS = ("date", "command", "before", "after", "CPU s before", "CPU s after", "ratio")
-TURNS = 4
-SCENES = {  # of the first coating at 12 speeds, by the words in the table
+TURNS = 7  # of one state they differ by half
+SCENES = {  # of the first coating at 20 speeds, by the words in the table
     "sweep": "",
     "sweep without checks": "check: 0",
     "sweep with central differences": "integrator: {scheme: central-difference, "
-    "fraction_of_limit: 0.8}\ncheck: 0",
+    "fraction_of_limit: 0.8}\nrounds: 6\nrecord: {spectrum_rounds: 4}\ncheck: 0",
 }
 SCENE = """base: paper-e1
-speeds: {{over_f1: {{first: 0.12, last: 0.38, count: 12}}}}
+speeds: {{over_f1: {{first: 0.12, last: 0.38, count: 20}}}}
 peaks: null
 twin: false
 {}
