@@ -13,8 +13,8 @@ BEYOND = {  # their files of more than one run: sweeps, second runs, what shows 
     *("test_peak_results", "test_cli", "test_cost", "test_dataset", "test_design", "test_examples"),
     *("test_checked", "test_extremes", "test_face", "test_kernel_file", "test_neighbours"),
     *("test_plausible", "test_results_page", "test_sobol", "test_start"),
-    # models from elsewhere, and the full one
-    *("test_between", "test_foreign", "test_full_model"),
+    # models from elsewhere, and beside the full one
+    *("test_between", "test_check", "test_foreign", "test_full_model"),
 }
 
 
