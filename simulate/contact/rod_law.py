@@ -59,6 +59,7 @@ def _pointer(function: Callable, named: type, returned: Type) -> Any:
 
     @numba.cfunc(returned(*OF_ARRAY), error_model="numpy", _nrt=False)  # pyright: ignore[reportCallIssue]
     def of_array(parameters, one, other):
+        """The function, of parameters in an array."""
         return formula(named(*to_fixed_tuple(parameters, count)), one, other)  # pyright: ignore[reportCallIssue]
 
     return of_array

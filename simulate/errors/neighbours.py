@@ -100,6 +100,7 @@ def judged(run: Run, accurate: bool = True, check: bool = False) -> Run:
     ]
 
     def march_second(other: Neighbour) -> Run:
+        """March a second run, and keep it for the count of steps."""
         marched.append(run.neighbour(other).march())
         return marched[-1]
 

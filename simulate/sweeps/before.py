@@ -55,6 +55,7 @@ def before(scene: Scene, rom: Rom, runs: xr.Dataset | None) -> Before:
         raise SceneError(*faults)
 
     def at(Omega: float) -> FinalState | Worn:
+        """Start of the run at a speed, rad/s."""
         given = start.speed_over_f1
         run = _run_at(runs, Omega / rom.omega1 if given is None else given, start.scene)
         final = final_state_of(run)
