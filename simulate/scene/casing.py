@@ -99,7 +99,9 @@ class Harmonic(Settings):
     amplitude_gaps: Factor | None = Field(
         default=None, description="Amplitude over the gap at xi = 1/16"
     )
-    phase_deg: float = Field(default=0, ge=-360, le=360, description="Phase (deg)")
+    phase_deg: float = Field(
+        default=0, ge=-360, le=360, description="Phase (deg), as in cos(order theta + phase)"
+    )
     speed_rad_s: float = Field(
         default=0,
         ge=-1e5,

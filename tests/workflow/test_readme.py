@@ -58,8 +58,8 @@ def anchors(text):
     [
         "| `integrator.fraction_of_limit` | `central-difference`: Step over the stability limit "
         "with contact | > 0, <= 1 |  |",
-        "| `liner.law.E` | `elastic`, `plastic`, `table`: Young's modulus (in unit_Pa) "
-        "| > 0, <= 1000000000.0 | required |",
+        "| `liner.law.curve.stress_Pa` | `table`: Stress at these strains (Pa), from 0 |  "
+        "| required |",
         "| `casing.harmonics[].order` | Nodal diameters | >= 0, <= 200 | required |",
         "| `record.samples_per_round` | Samples per revolution, for spectrum, history and states "
         "| >= 64, <= 1000000 | `2048` |",
