@@ -8,22 +8,20 @@ import pytest
 from geometry.blade import Blade
 from geometry.project import ROOT, check_settings, provenance, sources
 
-CORE = {"rom", "simulate"}  # folders
-BEYOND = {  # their files of more than one run: sweeps, second runs, what shows them
+CORE = "simulate"  # folder
+BEYOND = {  # its files of more than one run: sweeps, second runs, what shows them
     *("test_peak_results", "test_cli", "test_cost", "test_dataset", "test_design", "test_examples"),
     *("test_checked", "test_extremes", "test_face", "test_kernel_file", "test_neighbours"),
     *("test_plausible", "test_results_page", "test_sobol", "test_start"),
-    # models from elsewhere, and beside the full one
-    *("test_between", "test_check", "test_foreign", "test_full_model"),
 }
 
 
 @pytest.hookimpl(tryfirst=True)  # ahead of the selection by -m
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark what is neither slow nor nightly in the folders of ``CORE``, but for ``BEYOND``."""
+    """Mark what is neither slow nor nightly in the folder ``CORE``, but for ``BEYOND``."""
     for item in items:
         beyond = item.path.stem in BEYOND or {"slow", "nightly"} & {*item.keywords}
-        if item.path.parent.name in CORE and not beyond:
+        if item.path.parent.name == CORE and not beyond:
             item.add_marker("core")
 
 
