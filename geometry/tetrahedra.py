@@ -98,9 +98,8 @@ def _edges(facets: NDArray) -> NDArray:
 def _pieces(member: NDArray, shared: NDArray) -> NDArray:
     """Number of the connected component of each member; those with the same ``shared`` connect."""
     n = int(member.max()) + 1
-    graph = coo_matrix(
-        (np.ones(len(member)), (member, n + shared)), shape=(n + int(shared.max()) + 1,) * 2
-    )
+    shape = (n + int(shared.max()) + 1,) * 2
+    graph = coo_matrix((np.ones(len(member)), (member, n + shared)), shape=shape)
     return connected_components(graph, directed=False)[1][:n]
 
 

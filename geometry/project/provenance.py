@@ -183,7 +183,8 @@ def anew(path: str | Path) -> str:
 @cache
 def version() -> str:
     """Version of Tiprub, from pyproject.toml."""
-    return tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["version"]
+    pyproject = tomllib.loads((ROOT / "pyproject.toml").read_text())
+    return pyproject["project"]["version"]
 
 
 def other_format(given: float, read: int, remedy_of_older: str) -> str:

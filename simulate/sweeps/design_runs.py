@@ -296,9 +296,8 @@ def _line(row: int, runs: NDArray) -> str:
 def _attributes(engine: Engine) -> dict[str, Any]:
     attrs = dataset.attributes(engine.design.base, engine.rom, engine.choice)
     of_design = {"format": FORMAT, "design": engine.design.path.name}
-    return {
-        name: value for name, value in attrs.items() if name != "gap_m"
-    } | of_design  # rows may differ
+    # rows may differ in their gap
+    return {name: value for name, value in attrs.items() if name != "gap_m"} | of_design
 
 
 def merge(blocks: Sequence[xr.Dataset]) -> xr.Dataset:

@@ -241,4 +241,5 @@ def _is_prominent(along: NDArray[np.float64], index: int) -> bool:
     """Whether the amplitude at ``index`` falls by ``PROMINENCE`` of itself on both sides."""
     from scipy.signal import find_peaks  # a slow import, which many jobs do not need
 
-    return index in find_peaks(np.nan_to_num(along), prominence=PROMINENCE * along[index])[0]
+    prominence = PROMINENCE * along[index]
+    return index in find_peaks(np.nan_to_num(along), prominence=prominence)[0]

@@ -54,5 +54,5 @@ def row(
 ) -> None:
     """Run one row as a sweep, with all that its scene records."""
     one = Design.of(scene, Path(file)).require_row(int(names["row"]))
-    runs = swept(one, rom, tell, settings)
-    dataset.save(runs.assign_attrs(name=f"{names['scene']}, row {names['row']}"), sweep)
+    name = f"{names['scene']}, row {names['row']}"
+    dataset.save(swept(one, rom, tell, settings).assign_attrs(name=name), sweep)

@@ -26,12 +26,8 @@ def _sums(folders: Iterable[str | Path]) -> list[str]:
         return ["not run", "", "", ""]
     starts, ends, cpu = zip(*jobs, strict=True)
     longest = max(end - start for start, end, _ in jobs)
-    return [
-        str(len(jobs)),
-        f"{max(ends) - min(starts):.0f}",
-        f"{sum(cpu):.0f}",
-        f"{longest:.0f}",
-    ]
+    wall = max(ends) - min(starts)
+    return [str(len(jobs)), f"{wall:.0f}", f"{sum(cpu):.0f}", f"{longest:.0f}"]
 
 
 def _job(file: Path) -> tuple[float, float, float]:

@@ -54,12 +54,8 @@ def _predictable(rom: Rom, scene: Scene, numbers: Case) -> dict[str, Any]:
 def of_rows(rows: Sequence[Case]) -> dict[str, Any]:
     """The table from the rows of an experiment, those on the scene `grid`."""
     cases = [row["numbers"] for row in rows if row["scene"] == "grid"]
-    return {
-        "E": list(E),
-        "K": list(K),
-        "orders": sorted({int(k) for case in cases for k in case["peaks"]}),
-        "cases": cases,
-    }
+    orders = sorted({int(k) for case in cases for k in case["peaks"]})
+    return {"E": list(E), "K": list(K), "orders": orders, "cases": cases}
 
 
 def worst(table: Mapping[str, Any]) -> Case | None:
