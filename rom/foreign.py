@@ -157,9 +157,8 @@ def _rom(variables: dict[str, Any], blade: str, mesh: str) -> Rom:
         **{name: float(variables.get(name, np.nan)) for name in ("Omega_m", "span", "f1")},
     }
     directions = tuple(map(str, np.atleast_1d(variables["directions"])))
-    fixed_modes = len(values["M"]) - len(directions) * len(
-        values["xi"]
-    )  # besides those of the interface
+    # DoFs besides those of the interface
+    fixed_modes = len(values["M"]) - len(directions) * len(values["xi"])
     basis = EnrichedBasis(
         natural_modes=min(max(fixed_modes, 1), 100), speeds=min(max(len(values["K"]), 3), 9)
     )

@@ -18,9 +18,8 @@ from numpy.typing import NDArray
 from simulate.contact.compiled import compiled
 
 SPARE_RODS = 4  # on either side of the window, at which the distortion is set, too
-MIDDLE, END, STEP = range(
-    3
-)  # rows of ``phasor``: at the time of the step's rods, at its end, change
+# rows of ``phasor``: at the time of the step's rods, at its end, change
+MIDDLE, END, STEP = range(3)
 
 
 class Waves(NamedTuple):

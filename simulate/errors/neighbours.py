@@ -77,8 +77,8 @@ QUARTER = Neighbour("a quarter of the step", steps=4, cost=4.0)
 
 def raised(share: float, along: bool = False) -> Neighbour:
     """The run on a model with all natural frequencies higher by a ``share`` of themselves."""
-    marched = partial(_raised, share=share, along=along)
-    return Neighbour(f"frequencies by {share:g}", rom=marched, along=along)
+    changed = partial(_raised, share=share, along=along)
+    return Neighbour(f"frequencies by {share:g}", rom=changed, along=along)
 
 
 def _raised(rom: Rom, share: float, along: bool) -> Rom:
@@ -113,7 +113,7 @@ def judged(run: Run, accurate: bool = True, check: bool = False) -> Run:
         result,
         outcome=replace(outcome, status=verdict, reason=reason),
         steps=run.steps
-        + sum(value.outcome.rounds * value.setup.steps for value in marched[bool(run.steps) :]),
+        + sum(each.outcome.rounds * each.setup.steps for each in marched[bool(run.steps) :]),
     )
 
 
