@@ -1,4 +1,4 @@
-"""Plain values in files of results. Nothing is imported: Snakemake knows of rows with these."""
+"""Types of values in files of results. Light: Snakemake imports the summary, which has them."""
 
 from typing import TypedDict
 

@@ -135,6 +135,7 @@ def test_work_of_a_tiny_increment_keeps_its_digits(law, eps_p):
     """Over the increment, the work of 1e-15 is that of 1e-10: sums from 0 would lose its digits."""
     tiny, small = (law.plastic_work(law.parameters, eps_p, eps_p + d) for d in (1e-15, 1e-10))
     steps = [(eps_p + d) - eps_p for d in (1e-15, 1e-10)]
+    # the stress changes by K 1e-10, and eps_p + 1e-15 has one digit of it, as in ``steps``
     assert tiny / steps[0] == pytest.approx(small / steps[1], rel=1e-6, abs=1e-300)
 
 
