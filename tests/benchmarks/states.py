@@ -34,6 +34,7 @@ SCENES = {  # of the first coating at 40 speeds, by the words in the table
     "fraction_of_limit: 0.8}\nrounds: 6\nrecord: {spectrum_rounds: 4}\ncheck: 0",
 }
 SCENE = """base: paper-e1
+blade: reference
 speeds: {{over_f1: {{first: 0.12, last: 0.38, count: 40}}}}
 peaks: null
 twin: false

@@ -11,7 +11,7 @@ import pytest
 from projects import Project, make_project
 from test_kills import require_same_models, require_same_sweep
 
-BLADE = "results/reference"
+BLADE = "results/paper"
 SWEEP = f"{BLADE}/paper-e1/sweep.nc"
 BLOCKS = 3
 DEADLINE_S = 480.0

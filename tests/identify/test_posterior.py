@@ -6,7 +6,7 @@ from scipy.stats import norm
 
 from workflow.identify import proposal as emulator
 from workflow.identify.posterior import systematic, weighted
-from workflow.identify.table import sobol
+from workflow.identify.priors import sobol
 
 WIDTH = 0.05  # sigma of the data in the unit cube
 
@@ -25,7 +25,7 @@ def likelihood(points):
 @pytest.fixture(scope="module")
 def drawn():
     """Points of the prior, then of an emulated posterior, with their density."""
-    prior, candidates = sobol(128, 1), sobol(2**13, 2)
+    prior, candidates = sobol(128, 5, 1), sobol(2**13, 5, 2)
     everywhere = np.vstack([candidates, prior])
     emulated = emulator.emulated(prior, deviations(prior), everywhere)
     density = emulated / emulated[: 2**13].mean()
@@ -71,12 +71,12 @@ def test_a_wrong_density_gives_wrong_weights(drawn):
 
 
 def test_points_without_support_have_no_weights():
-    empty = weighted(sobol(4, 1), np.zeros(4), np.full(4, 4.0))
+    empty = weighted(sobol(4, 5, 1), np.zeros(4), np.full(4, 4.0))
     assert empty.evidence == empty.effective == 0 and not empty.weights.any()
 
 
 def test_the_emulator_knows_its_error():
-    points = sobol(64, 1)
+    points = sobol(64, 5, 1)
     straight = np.stack([points.sum(axis=1), points[:, 0]], axis=1)
     noisy = straight + np.random.default_rng(0).normal(0, 0.3, straight.shape)
     assert emulator.error(points, straight).max() < 1e-3
@@ -84,7 +84,7 @@ def test_the_emulator_knows_its_error():
 
 
 def test_equal_points_count_once():
-    points, likely = sobol(8, 1), np.linspace(1, 2, 8)
+    points, likely = sobol(8, 5, 1), np.linspace(1, 2, 8)
     once = weighted(points, likely, np.full(8, 8.0))
     twice = weighted(np.tile(points, (2, 1)), np.tile(likely, 2), np.full(16, 16.0))
     assert twice.effective == pytest.approx(once.effective)

@@ -7,11 +7,15 @@ from scipy.stats import norm
 
 from workflow.identify.fits import drawn as every, fit, posterior_of
 from workflow.identify.likelihood import SHIFTS, WITH_ORDER, Fit
+from workflow.identify.points import Blades, of_prior, placed
+from workflow.identify.priors import SHAPE, sobol
 from workflow.identify.proposal import drawn, proposal, served
-from workflow.identify.table import COATINGS, ORDERS, sobol
+from workflow.identify.table import COATINGS, ORDERS
 from workflow.paper.printed import CONSISTENT, CRITICAL
 
 SPREAD = 0.2  # of the shifts over the unit cube
+# Blades whose shape does not matter, and which are equally stiff
+BLADES = Blades(sobol(32, len(SHAPE), 3), np.zeros(32))
 
 
 @pytest.fixture(autouse=True)
@@ -21,13 +25,13 @@ def _few_candidates(request, monkeypatch):
         monkeypatch.setattr("workflow.identify.proposal.CANDIDATES", 2**16)
 
 
-def made(points, crossing_of_6=0.17, soft=(0.0, 0.0), data=None):
-    """Peaks at the paper's shifts where the first two parameters are 1/2, for K = 4.55.
+def made(cube, crossing_of_6=0.17, soft=(0.0, 0.0), data=None):
+    """Peaks at the paper's shifts where the first two after the shape are 1/2, for K = 4.55.
 
     With K = 0.45 the shifts of E = 1 are off by ``soft``. The peak of E = 10 is the higher one, and
     its wear the deeper one, where the third parameter is above 1/2.
     """
-    crossings = {4: 0.31, 6: crossing_of_6}
+    crossings, points = {4: 0.31, 6: crossing_of_6}, cube[:, 1:]
     over_crossing = np.empty((len(points), len(COATINGS), len(ORDERS)))
     for i, (E, K) in enumerate(COATINGS):
         for j, k in enumerate(ORDERS):
@@ -38,20 +42,19 @@ def made(points, crossing_of_6=0.17, soft=(0.0, 0.0), data=None):
     amplitude[:, 2] += (points[:, 2] > 0.5)[:, None] - 0.5
     peaks = {"over_crossing": over_crossing, "amplitude": amplitude, "wear": amplitude}
     found = {name: (("point", "coating", "order"), values) for name, values in peaks.items()}
-    points = {"points": (("point", "parameter"), points)}
-    return xr.Dataset(found | points, attrs={"data": data})
+    return placed(xr.Dataset(found), cube, BLADES).assign_attrs(data=data)
 
 
 def tables(data=SHIFTS, **shape):
     """A table of the prior and one that was proposed after it."""
-    prior = sobol(128, 1)
+    prior = of_prior(128, 1)
     first = made(prior, **shape)
     points = drawn([first], 128, data)
     return [first, made(points, **shape, data=data)]
 
 
 def test_the_reading_that_fits_better_is_served():
-    points = sobol(128, 1)
+    points = of_prior(128, 1)
 
     def of(crossing):
         return served(made(points, crossing))
@@ -61,7 +64,7 @@ def test_the_reading_that_fits_better_is_served():
 
 
 def test_points_are_proposed_where_the_shifts_are_the_papers():
-    proposed = tables()[1]["points"].values
+    proposed = tables()[1]["cube"].values[:, 1:]
     sigma = 0.005 / 0.31 / np.sqrt(2)  # of two data
     np.testing.assert_allclose(proposed[:, :2].mean(axis=0), 0.5, atol=0.03)
     assert proposed[:, :2].std(axis=0).max() < 2 * sigma / SPREAD
@@ -69,16 +72,14 @@ def test_points_are_proposed_where_the_shifts_are_the_papers():
 
 
 def test_the_order_of_the_coatings_as_a_datum_moves_the_proposal():
-    shares = [
-        (tables(data)[1]["points"].values[:, 2] > 0.5).mean() for data in (SHIFTS, WITH_ORDER)
-    ]
+    shares = [(tables(data)[1]["cube"].values[:, 3] > 0.5).mean() for data in (SHIFTS, WITH_ORDER)]
     assert 0.4 < shares[0] < 0.6 and shares[1] > 0.8
 
 
 def test_a_K_far_from_the_data_is_not_served():
     """The other K alone then has the draws: twice as many are near its posterior."""
-    points, prior = sobol(512, 5), sobol(128, 1)
-    centre = np.linalg.norm(points[:, :2] - 0.5, axis=1) < 0.05
+    points, prior = of_prior(512, 5), of_prior(128, 1)
+    centre = np.linalg.norm(points[:, 1:3] - 0.5, axis=1) < 0.05
 
     def density_at_centre(soft):
         first = made(prior, soft=soft)
@@ -87,7 +88,10 @@ def test_a_K_far_from_the_data_is_not_served():
     assert density_at_centre((0.3, -0.3)) > 1.5 * density_at_centre((0.05, 0.05))
 
 
-NAMES = ("unit_Pa", "casing_gaps", "fourth_over_second", "constant_over_second", "damping_ratio")
+NAMES = (
+    *("unit_Pa", "casing_gaps", "fourth_over_second", "constant_over_second"),
+    *("fifth_over_second", "damping_ratio"),
+)
 # Of the first two parameters: two data of k = 4 and two of k = 6 each, linear in one of them
 SIGMA = 1 / (SPREAD * np.hypot(0.31, 0.181) / 0.005)
 
@@ -100,7 +104,7 @@ def fitted():
         points = drawn(each, number, data)
         each.append(made(points, data=data))
     marched = every(each)
-    parameters = dict(zip(NAMES, marched.points.values.T, strict=True))
+    parameters = dict(zip(NAMES, marched.cube.values[:, 1:].T, strict=True))
     return marched, fit(Fit(4.55, "printed"), marched, parameters)
 
 
@@ -120,7 +124,7 @@ def test_a_fit_is_the_posterior_in_closed_form(fitted):
         expected = 0.5 + SIGMA * norm.ppf([0.05, 0.5, 0.95])
         np.testing.assert_allclose(shifts["ranges"][name], expected, atol=0.2 * SIGMA)
     np.testing.assert_allclose(shifts["ranges"]["damping_ratio"], [0.05, 0.5, 0.95], atol=0.08)
-    draws = marched.points.values[shifts["draws"]]
+    draws = marched.cube.values[shifts["draws"], 1:]
     assert draws[:, :2].std(axis=0) == pytest.approx([SIGMA] * 2, rel=0.25)
     assert draws[:, 4].std() == pytest.approx(12**-0.5, rel=0.2)
     deviations = Fit(4.55, "printed").deviations(marched.over_crossing.values)
@@ -128,14 +132,14 @@ def test_a_fit_is_the_posterior_in_closed_form(fitted):
 
 
 def test_the_density_of_a_proposal_has_mean_one_and_equal_parts():
-    prior = sobol(256, 1)
+    prior = of_prior(256, 1)
     soft = (0.02, -0.02)  # K = 0.45 is off in a way that no point can meet: less evidence
     first = made(prior, soft=soft)
-    among = sobol(2**13, 9)
+    among = of_prior(2**13, 9)
     density = proposal([first], among, SHIFTS)
     assert density.mean() == pytest.approx(1, abs=0.1)
     alone = proposal([made(prior, soft=(0.3, -0.3))], among, SHIFTS)
-    centre = np.linalg.norm(among[:, :2] - 0.5, axis=1) < 0.03
+    centre = np.linalg.norm(among[:, 1:3] - 0.5, axis=1) < 0.03
     assert density[centre].mean() < 0.9 * alone[centre].mean()
 
 
@@ -144,14 +148,14 @@ def test_draws_are_those_of_the_served_fit():
         "served": "consistent",
         "fits": {"K = 4.55, consistent": {SHIFTS: {"draws": [3]}, WITH_ORDER: {"draws": [4]}}},
     }
-    assert posterior_of(fits, "4.55-with-order")["draws"] == [4]
+    assert posterior_of(fits)["draws"] == [4]
 
 
 def test_a_fit_without_any_peak_has_no_range_and_no_draws():
-    prior = sobol(8, 1)
+    prior = of_prior(8, 1)
     table = made(prior).assign(density=("point", np.full(8, 8.0)))
     marched = table.assign(over_crossing=np.nan * table["over_crossing"])
-    of = fit(Fit(4.55, "printed"), marched, {"fourth_over_second": prior[:, 0]})
+    of = fit(Fit(4.55, "printed"), marched, {"fourth_over_second": prior[:, 3]})
     assert of["chi_squared"] == np.inf and of[SHIFTS]["evidence"] == 0
     assert of[SHIFTS]["ranges"] is of[SHIFTS]["medoid"] is None and of[SHIFTS]["draws"] == []
 
@@ -159,5 +163,5 @@ def test_a_fit_without_any_peak_has_no_range_and_no_draws():
 def test_no_point_is_drawn_twice():
     each = tables()
     third = drawn(each, 128, SHIFTS)
-    every = np.vstack([*(table.points.values for table in each), third])
+    every = np.vstack([*(table.cube.values for table in each), third])
     assert len(np.unique(every, axis=0)) == len(every)

@@ -23,7 +23,7 @@ def plotted(coarse_rom, tmp_path, monkeypatch):
     lean = {"rounds": 4, "record__spectrum_rounds": 2}
     for name, E, speeds in (("e1", 1.0, [0.30, 0.34, 0.36]), ("e10", 10.0, [0.30, 0.36, 0.38])):
         runs = swept(scene(**lean, liner__law__E=E, speeds={"over_f1": speeds}), coarse_rom)
-        save(runs, tmp_path / f"results/reference/paper-{name}/sweep.nc")
+        save(runs, tmp_path / f"results/paper/paper-{name}/sweep.nc")
     monkeypatch.chdir(tmp_path)
     names = {}
     with mpl.rc_context({"backend": "agg"}):

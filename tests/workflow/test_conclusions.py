@@ -10,7 +10,7 @@ from workflow.identify.likelihood import K_OF_E1, WITH_ORDER, Fit
 from workflow.identify.priors import Priors
 from workflow.paper import conclusions
 
-POSTERIOR = "posterior, with C12 and C16"
+DRAWN = "narrow prior"
 RANGES = {
     "unit_Pa": (1e9, 2e9, 8e9),
     "casing_gaps": (1.0, 1.5, 2.0),
@@ -19,7 +19,7 @@ RANGES = {
 }
 FOUND = {
     "served": "printed",
-    "prior": prior_numbers(Priors.load(ROOT / "workflow/identify/priors.yaml")),
+    "prior": prior_numbers(Priors.load(ROOT / "workflow/identify/narrow.yaml")),
     "fits": {
         Fit(K_OF_E1[1], "printed").name: {WITH_ORDER: {"ranges": RANGES, "four_places": 0.75}}
     },
@@ -41,7 +41,7 @@ def judged(verdict, there=None, share=None):
         "says": "it holds",
         "verdict": verdict,
         "other": {"rotor37": {"verdict": there}} if there else {},
-        "shares": {"prior": 1.0, POSTERIOR: share} if share is not None else {},
+        "shares": {DRAWN: share, "wide prior": 1.0} if share is not None else {},
     }
 
 

@@ -36,7 +36,7 @@ from workflow.jobs.figure import origins
 
 SEED = 20
 DAMAGES = 32  # of each file
-BLADE = "results/reference"
+BLADE = "results/paper"
 REMEDY = re.compile(r"make it anew: `\./run snakemake -f \S+`|delete it, and run the design again")
 
 

@@ -11,7 +11,7 @@ from simulate.sweeps.design_runs import load
 
 SCENE = "workflow/scenes/mine.yaml"
 TABLE = "workflow/scenes/mine.csv"
-FOLDER = "results/reference/mine"
+FOLDER = "results/paper/mine"
 SOBOL = """samples: 2
 factors:
   K: {keys: [liner.law.K], between: [0.5, 2]}

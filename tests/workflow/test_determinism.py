@@ -11,7 +11,7 @@ from test_kills import require_same_sweep
 
 from fem.matrices import Matrices
 
-BLADE = "results/reference"
+BLADE = "results/paper"
 SWEEP = f"{BLADE}/paper-e1/sweep.nc"
 
 

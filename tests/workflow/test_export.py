@@ -25,7 +25,7 @@ from rom.model import Rom
 from rom.reconstruct import Basis
 from workflow.export import MOST_STEPS, steps
 
-SCENE = "results/reference/paper-e1"
+SCENE = "results/paper/paper-e1"
 AXES = {"downstream": "x", "radial": "-y", "rotation": "left-handed"}
 
 
@@ -56,11 +56,11 @@ def turned(exported):
     Its scene, its deck and its arrays.
     """
     blades, scenes = (exported.folder / f"workflow/{kind}s" for kind in ("blade", "scene"))
-    points, cells, facets = parts(exported.folder / "results/reference/blade.msh")
+    points, cells, facets = parts(exported.folder / "results/paper/blade.msh")
     x, y, z = points.T
     deck = np.column_stack([z, -x, y])
     write_inp(blades / "turned.inp", deck, cells[:, MIRRORED], facets)
-    blade = as_meshed(Blade.load(blades / "reference.yaml"), "turned.inp", frame=AXES)
+    blade = as_meshed(Blade.load(blades / "paper.yaml"), "turned.inp", frame=AXES)
     values = blade.model_dump(mode="json", exclude_unset=True)
     (blades / "turned.yaml").write_text(yaml.safe_dump(values))
     scene = {"base": "paper-e1", "blade": "turned", "speeds": {"over_f1": [0.34]}, "peaks": None}
@@ -78,7 +78,7 @@ def first_modes(arrays, at, count=5):
 
 
 def test_matlab_and_numpy_get_the_same_arrays_those_of_the_model(exported, arrays):
-    rom = Rom.load(exported.folder / "results/reference/rom-r.nc")
+    rom = Rom.load(exported.folder / "results/paper/rom-r.nc")
     of_matlab = loadmat(exported.folder / SCENE / "export/model.mat")
     assert {name for name in of_matlab if not name.startswith("__")} == arrays.keys()
     for name, values in arrays.items():
@@ -90,7 +90,7 @@ def test_matlab_and_numpy_get_the_same_arrays_those_of_the_model(exported, array
 
 
 def test_k_is_given_at_the_speeds_asked_for(exported, arrays):
-    rom = Rom.load(exported.folder / "results/reference/rom-r.nc")
+    rom = Rom.load(exported.folder / "results/paper/rom-r.nc")
     assert_allclose(arrays["Omega"], [0.0, 5415.5 / RPM])
     for K, Omega in zip(arrays["K_at"], arrays["Omega"], strict=True):
         powers = Omega ** arrays["power"]
@@ -99,12 +99,12 @@ def test_k_is_given_at_the_speeds_asked_for(exported, arrays):
 
 
 def test_frequencies_at_rest_are_those_of_the_full_model(exported, arrays):
-    full = FullModel.load(exported.folder / "results/reference/full-model.nc")
+    full = FullModel.load(exported.folder / "results/paper/full-model.nc")
     frequencies, _ = first_modes(arrays, 0)
     assert_allclose(frequencies, full.omega[0, :5] / (2 * np.pi), rtol=1e-3)
 
 
-@pytest.mark.parametrize("blade", ["reference", "turned"])
+@pytest.mark.parametrize("blade", ["paper", "turned"])
 def test_modes_have_unit_mass_through_the_basis(blade, exported, arrays, turned):
     """In the full mass matrix, which is in the blade's frame, m."""
     given, R, metres = arrays, np.eye(3), 1e-3
@@ -168,7 +168,7 @@ def test_time_steps_are_static_deflection_and_motion_of_the_nearest_speed(export
     """By basis and sweep alone, at the free nodes; 5415.5 rpm is nearest to 5290 rpm."""
     files = sorted((exported.folder / SCENE / "export/steps-5290rpm").iterdir())
     assert files[7].name == "steps-5290rpm-0007.vtu"
-    basis = Basis.load(exported.folder / "results/reference/basis-r.h5")
+    basis = Basis.load(exported.folder / "results/paper/basis-r.h5")
     with xr.open_dataset(exported.folder / SCENE / "sweep.nc", engine="h5netcdf") as sweep:
         run = sweep.sel(speed_over_f1=0.34)
         run = run.isel(motion_time=np.isfinite(run["motion"]).all("dof").values)
@@ -256,7 +256,7 @@ def test_the_table_has_what_is_one_number_of_each_run(exported):
     [
         ((), "SCENE: no workflow/scenes/.yaml; of these there are results: paper-e1, "),
         (("none",), "none: no workflow/scenes/none.yaml; of these there are results: paper-e1, "),
-        (("long-20",), "no result yet: ./run snakemake results/reference/long-20/sweep.nc, then"),
+        (("long-20",), "no result yet: ./run snakemake results/paper/long-20/sweep.nc, then"),
         (("five-factors",), "five-factors: its design makes tables, and no sweep"),
         (("paper-e1", "fast"), "'fast' is no number; needs RPM"),
         (("paper-e1", "-1"), "speed -0.10472 rad/s is outside [0, 650] rad/s (-1 rpm, highest 6"),
@@ -273,5 +273,5 @@ def test_what_is_refused_in_one_line(words, said, exported):
 def test_a_basis_of_another_model_is_refused(exported, turned, tmp_path):
     copy = Project(shutil.copytree(exported.folder, tmp_path / "copy", symlinks=True))
     blades = copy.folder / "results"
-    shutil.copy(blades / "turned/basis-r.h5", blades / "reference/basis-r.h5")
+    shutil.copy(blades / "turned/basis-r.h5", blades / "paper/basis-r.h5")
     assert "basis-r.h5: is of blade turned, " in export(copy, "paper-e1", expect=2)

@@ -35,8 +35,8 @@ SCENES = {
     "free": scene("given", touches=False),
     "drawn": scene(design="five.yaml"),
     "listed": scene(design="rows.csv"),
-    "paper-e1": scene("reference", wear=True),
-    "paper-e10": scene("reference", wear=True),
+    "paper-e1": scene("paper", wear=True),
+    "paper-e10": scene("paper", wear=True),
 }
 
 
@@ -47,7 +47,7 @@ def figures_of(*configured):
         delivered={name: SCENES[name] for name in configured},
         stressed=["hard"],
         directions=lambda blade: "rt",
-        operating={"thin": {"design": 9e3}, "given": {}, "reference": {}}.get,
+        operating={"thin": {"design": 9e3}, "given": {}, "paper": {}}.get,
         blades=dict.fromkeys(["matrices", "mesh", "fatigue"], lambda name: name != "given"),
     )
 
@@ -60,7 +60,7 @@ def test_a_row_draws_with_what_it_gives(name):
     known = signature(getattr(module, function or "draw")).parameters
     assert {*row.given} <= {*known} and ("operating" in known or not row.operating)
     assert {*row.files} - {"rom"} <= {*known}
-    wildcards = {"blade": "thin", "scene": "hard", "identified": "thin"}
+    wildcards = {"blade": "thin", "scene": "hard", "prior": "narrow"}
     for pattern in row.files.values():
         for path in [pattern] if isinstance(pattern, str) else pattern:
             path.format(**wildcards, directions="r", name=name, stressed="hard")
@@ -109,7 +109,7 @@ def test_a_figure_marks_the_operating_speeds_of_its_blade():
                 "fig03",
                 "fig09",
                 "fig10a",
-                "loads-reference",
+                "loads-paper",
                 "haigh-paper-e1",
                 "stress-paper-e1",
                 "fig11a",
@@ -118,7 +118,7 @@ def test_a_figure_marks_the_operating_speeds_of_its_blade():
         (
             ["paper-e1", "paper-e10"],
             [
-                *("fig03", "fig09", "fig10a", "fig10b", "loads-reference"),
+                *("fig03", "fig09", "fig10a", "fig10b", "loads-paper"),
                 *("haigh-paper-e1", "haigh-paper-e10", "stress-paper-e1", "stress-paper-e10"),
                 *("fig11a", "fig11b", "fig12"),
             ],

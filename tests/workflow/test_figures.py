@@ -74,8 +74,7 @@ from workflow.figures import (
 from workflow.figures.marks import speed_text
 from workflow.figures.response import Response
 from workflow.identify.likelihood import FITS, SHIFTS, WITH_ORDER
-from workflow.identify.priors import Priors
-from workflow.identify.table import sobol
+from workflow.identify.priors import NAMES, Priors, sobol
 from workflow.jobs.figure import origins, read
 from workflow.paper.measure import coating
 from workflow.study import mesh, scaling, stability
@@ -86,7 +85,7 @@ FAILED = 25  # of SPEEDS: 0.27
 SENSITIVE = [31, 32, 34]  # of SPEEDS: 0.33, 0.34 (the peak of eo(4)) and 0.36
 PEAK_4, PEAK_6 = 0.34, 0.2
 RODS = 512
-PRIORS = Priors.load(ROOT / "workflow/identify/priors.yaml")
+PRIORS = Priors.load(ROOT / "workflow/identify/narrow.yaml")
 APART = np.array([0.5, 0.51, 1.0])
 
 
@@ -332,7 +331,7 @@ def design_rows():
 @pytest.fixture
 def fits():
     """Weights of the upper half of the first parameter: density 2 there, 0 below; others 1."""
-    points = sobol(512, 1)
+    points = sobol(512, len(NAMES), 1)
     upper = (points[:, 0] > 0.5) / 256
     of = {"weights": upper.tolist(), "effective": 256.0, "ranges": {}}
     few = {"weights": upper.tolist(), "effective": 43.2, "ranges": None}
@@ -400,7 +399,7 @@ FIGURES = {
     "fig13-k6": lambda get: coatings.peaks(get("grid"), order=6),
     "fig16": lambda get: spectra.over_time(*read(spectra, get("spectrogram_files"), "over_time")),
     "identified": lambda get: identification.posterior(get("fits"), PRIORS),
-    "together": lambda get: identification.together({"prior": {"4.55": SHARES}}),
+    "together": lambda get: identification.together(SHARES),
     "modes": lambda get: fig09_modes.draw(*get("modes")),
     "gap": lambda get: clearance.gap(get("rest")),
     "haigh": lambda get: haigh.draw(*STRESSES),
@@ -732,7 +731,7 @@ NUMBERS = {  # by figure and what is shown: the numbers that are drawn, and what
         [[0] * 5 + [2] * 5] * 3,
     ),
     ("identified", "range of the unit in GPa"): (
-        lambda drawn: drawn.axes[0].patches[0].get_data()[1][[0, -1]],
+        lambda drawn: drawn.axes[7].patches[0].get_data()[1][[0, -1]],
         [0.1, 30],
     ),
     ("identified", "densities of the others"): (

@@ -31,7 +31,7 @@ from simulate.sweeps import dataset, design_runs
 from simulate.sweeps.closing_in import sweep
 from workflow.figures import style
 
-BLADE = "results/reference"
+BLADE = "results/paper"
 ROOM = 60_000  # bytes: less than each of the files
 
 

@@ -28,7 +28,7 @@ def with_files(project):
 
 def test_the_first_page_shows_what_the_terminal_prints_of_the_first_scene(project):
     shown = printed(read_json(project.folder / "results/summary.json"))
-    assert shown.startswith("```\npaper-e1: blade reference") and "paper-e10" not in shown
+    assert shown.startswith("```\npaper-e1: blade paper") and "paper-e10" not in shown
     assert re.search(r"^EO +rpm ", shown, re.MULTILINE)
 
 
@@ -45,27 +45,27 @@ def test_files_of_the_page_are_planned(with_files):
 @pytest.mark.slow
 def test_files_of_the_page_give_results(with_files):
     """All but the accuracy, which the coarse mesh cannot reach."""
-    sweeps = [f"results/reference/{name}/sweep.nc" for name in NAMES if name in OF_REFERENCE]
+    sweeps = [f"results/paper/{name}/sweep.nc" for name in NAMES if name in OF_REFERENCE]
     with_files.run(
         *sweeps,
         "results/hot/my-hot/sweep.nc",
         "results/figures/haigh-my-margin.png",
         "results/my-alloy/my-margin/stress.vtu",
-        "results/reference/my-table/design.csv",
+        "results/paper/my-table/design.csv",
         "results/figures/design-my-table.png",
         "results/figures/campbell-my-engine.png",
-        "results/reference/my-gauges/gauges.csv",
+        "results/paper/my-gauges/gauges.csv",
         "results/figures/gauges-my-gauges.png",
     )
     with xr.open_dataset(
-        with_files.folder / "results/reference/my-gauges/sweep.nc", engine="h5netcdf"
+        with_files.folder / "results/paper/my-gauges/sweep.nc", engine="h5netcdf"
     ) as runs:
         grids, rounds = ["root", "mid-0", "mid-45", "mid-90"], 2
         assert runs["gauge"].values.tolist() == grids
         assert runs["gauge_strain"].shape == (3, 4, rounds * 128)
         strain, stress = (abs(runs[f"gauge_{of}_static"]).max() for of in ("strain", "stress"))
         assert 1e-5 < strain < 2e-3 and 1e6 < stress < 2e8
-    lines = (with_files.folder / "results/reference/my-gauges/gauges.csv").read_text().splitlines()
+    lines = (with_files.folder / "results/paper/my-gauges/gauges.csv").read_text().splitlines()
     assert len(lines) == 1 + 3 * len(grids) and "static strain (µε)" in lines[0]
 
 

@@ -25,7 +25,7 @@ from rom.reconstruct import Basis
 from simulate.sweeps.dataset import load
 
 SEED = 20
-BLADE = "results/reference"
+BLADE = "results/paper"
 TARGETS = (f"{BLADE}/paper-e1/sweep.nc", f"{BLADE}/peak-e1/stress.vtu", f"{BLADE}/basis-r.h5")
 # Kills of each rule's jobs, and their own time, s, within which they are: that of most jobs
 KILLS = {

@@ -101,8 +101,8 @@ def test_sources_are_found_beside_a_users_module_of_the_name_of_a_package(tmp_pa
 TARGETS = [
     *("all", "paper", "paper_uncertainty", "paper_causes", "paper_rotor37", "identify"),
     *("study_mesh", "study_bases", "study_rotor37", "stability", "trade", "scaling"),
-    *(f"results/reference/{name}" for name in ("one-percent/sweep.nc", "paper-e1/rub-0.3.gif")),
-    *(f"results/reference/five-factors/{name}" for name in ("row-1.nc", "design.csv")),
+    *(f"results/paper/{name}" for name in ("one-percent/sweep.nc", "paper-e1/rub-0.3.gif")),
+    *(f"results/paper/five-factors/{name}" for name in ("row-1.nc", "design.csv")),
     *(f"results/figures/{name}-foreign.png" for name in ("spectra", "wear")),
     *(f"results/figures/{name}-rotor37.png" for name in ("campbell", "modes", "mesh-convergence")),
     *(f"results/figures/{name}-five-factors.png" for name in ("design", "sensitivity")),
@@ -110,7 +110,7 @@ TARGETS = [
     *("results/interface/interface.md", "results/foreign/foreign/sweep.nc"),
     "results/experiments/interface/picture.png",
     *("results/matrices/rom-check-r.nc", "results/paper/conclusions.md"),
-    *("results/reference/gauged/gauges.csv", "results/figures/gauges-gauged.png"),
+    *("results/paper/gauged/gauges.csv", "results/figures/gauges-gauged.png"),
 ]
 GAUGED = """
 base: paper-e1

@@ -171,7 +171,7 @@ def test_every_row_fits_its_model(of_study, coarse_rom):
     for case in of_study.values():
         if (
             case.directions == "r"
-            and case.scene.blade != "reference-paper"
+            and case.scene.blade != "reference-points"
             and case.label != "sweep"
         ):
             check_scene(case.scene.but(blade="coarse"), coarse_rom)

@@ -17,7 +17,7 @@ from rom.check import RomCheck
 from rom.model import Rom
 from simulate.sweeps.dataset import load
 
-BLADE = "results/reference"
+BLADE = "results/paper"
 E1, E10, PEAK = (f"workflow/scenes/{name}.yaml" for name in ("paper-e1", "paper-e10", "peak-e1"))
 CONFIG, REFERENCE = "workflow/config.yaml", "workflow/blades/reference.yaml"
 
@@ -40,10 +40,10 @@ def test_end_to_end_delivers_models_sweeps_and_figures(project):
         assert set(sweep.status.values) == {"ok"}
         assert sweep.wear.max() > 0
         page = (project.folder / BLADE / scene / "explore.html").read_text()
-        assert f"Rub of reference, {scene}" in page and '"shapes"' in page
+        assert f"Rub of paper, {scene}" in page and '"shapes"' in page
     stems = {path.stem for path in (project.folder / "results/figures").iterdir()}
     assert stems >= {"fig03", "fig09", "fig10a", "fig10b", "fig11a", "fig11b", "fig12"}
-    assert stems >= {"stress-paper-e1", "loads-reference", "haigh-paper-e1"}
+    assert stems >= {"stress-paper-e1", "loads-paper", "haigh-paper-e1"}
     # nothing is left half made, nothing is to be done
     assert "states" not in sweep
     assert list((project.folder / "results").rglob(".*")) == []
@@ -63,7 +63,7 @@ def test_the_summary_has_every_scene_and_is_the_last_that_is_said(project):
     assert len((project.folder / "results/summary.csv").read_text().splitlines()) == 1 + len(rows)
     (project.folder / "results/summary.json").unlink()
     said = project.run()
-    assert "Summary: results/summary.md" in said[said.index("paper-e1: blade reference") :]
+    assert "Summary: results/summary.md" in said[said.index("paper-e1: blade paper") :]
 
 
 @pytest.mark.slow
@@ -148,7 +148,7 @@ def test_targets_on_demand_have_their_jobs(project, targets):
 def test_frequencies_of_both_prestresses_are_rows_of_an_experiment(project):
     """On the blade, and on a variant of it that has no file of its own."""
     mine = project.folder / "workflow/experiments/mine.yaml"
-    rows = {"nonlinear": {}, "linear": {"blade": "reference-linear"}}
+    rows = {"linear": {}, "nonlinear": {"blade": "paper-nonlinear"}}
     values = {"of": ["paper-e1"], "rows": rows, "marched": False, "needs": ["mesh", "matrices"]}
     mine.write_text(json.dumps(values | {"numbers": "study.frequencies:numbers"}))
     project.run("results/experiments/mine/table.json")
@@ -162,15 +162,15 @@ def test_frequencies_of_both_prestresses_are_rows_of_an_experiment(project):
     np.testing.assert_allclose(f["linear"][0], f["nonlinear"][0], rtol=1e-8)
     # they differ with the deflection: f1 at full speed by 0.1 to 1 %
     assert 1e-4 < abs(f["linear"][2, 0] / f["nonlinear"][2, 0] - 1) < 1e-2
-    assert not (project.folder / "results/reference-linear/rom-r.nc").exists()
+    assert not (project.folder / "results/paper-nonlinear/rom-r.nc").exists()
 
 
 @pytest.mark.slow
 def test_the_papers_own_model_is_a_blade_of_its_own(project):
     """Eight points with six modes at three speeds."""
-    of_model = "results/reference/paper-model.json"
+    of_model = "results/paper/paper-model.json"
     project.run(of_model)
-    of_paper = Rom.load(project.folder / f"{BLADE}-paper/rom-rtz.nc")
+    of_paper = Rom.load(project.folder / f"{BLADE}-points/rom-rtz.nc")
     ours = Rom.load(project.folder / f"{BLADE}/rom-r.nc")
     model = read_json(project.folder / of_model)["model"]
     assert model["n"] == of_paper.n > ours.n
@@ -388,7 +388,7 @@ def test_a_running_geometry_is_brought_to_rest(tmp_path):
     planned = project.planned("mesh")
     assert planned["build_mesh_at_rest"] == 1 and "build_mesh" not in planned
     project.run("mesh")
-    log = (project.folder / "results/reference/logs/mesh.log").read_text()
+    log = (project.folder / "results/paper/logs/mesh.log").read_text()
     assert "at rest: nodes moved by up to 0.3781 mm; at 5600 rpm" in log
 
 

@@ -8,7 +8,8 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from workflow.identify.likelihood import SHIFTS, WITH_ORDER, Fit
-from workflow.identify.posterior import Weighted, mean_distance, medoid, systematic, weighted
+from workflow.identify.points import Values
+from workflow.identify.posterior import Weighted, medoid, systematic, weighted
 from workflow.identify.priors import NAMES, Points, Priors
 from workflow.identify.proposal import proposal
 from workflow.identify.table import joined
@@ -16,12 +17,8 @@ from workflow.identify.table import joined
 LEVELS = (0.05, 0.5, 0.95)  # quantiles of the parameters
 ENOUGH = 200  # effective size from which a fit's ranges and draws are used
 DRAWS, SEED = 100, 3  # of a distribution, for the claims at its points
-PRIOR = "prior"  # name of its draws
-TAKEN = "4.55-with-order"  # that which the scenes of the paper take
-POSTERIORS = {TAKEN: (4.55, WITH_ORDER)}
+K_TAKEN = 4.55  # of the coating with E = 1, in the fit whose medoid the scenes of the paper take
 TWO_NEAREST = -0.25  # `fourth_over_second`: below, the casing is nearest at four places, not two
-
-type Values = dict[str, NDArray[np.float64]]  # (points,) of each parameter
 
 
 def drawn(tables: Sequence[xr.Dataset]) -> xr.Dataset:
@@ -30,10 +27,10 @@ def drawn(tables: Sequence[xr.Dataset]) -> xr.Dataset:
     That of all draws together, relative to the prior.
     """
     every = joined(tables)
-    points = every["points"].values
-    density = np.full(len(points), float(tables[0].sizes["point"]))
+    cube = every["cube"].values
+    density = np.full(len(cube), float(tables[0].sizes["point"]))
     for i in range(1, len(tables)):
-        density += tables[i].sizes["point"] * proposal(tables[:i], points, tables[i].attrs["data"])
+        density += tables[i].sizes["point"] * proposal(tables[:i], cube, tables[i].attrs["data"])
     return every.assign(density=("point", density))
 
 
@@ -50,6 +47,7 @@ def fit(data_fit: Fit, marched: xr.Dataset, values: Values) -> dict[str, Any]:
     """Numbers of a fit, with the shifts as data, and with C12 and C16 besides.
 
     "met": number of points at which all deviations are within one sigma, and the data besides hold;
+    "blades": number of equal blades that have as much of the weight (Kong 1992);
     "four_places": share of the casings that are nearest at four places instead of two.
     """
     points, shifts = marched["points"].values, marched["over_crossing"].values
@@ -62,7 +60,11 @@ def fit(data_fit: Fit, marched: xr.Dataset, values: Values) -> dict[str, Any]:
     def posterior(by: NDArray[np.bool_]) -> dict[str, Any]:
         """Numbers with the likelihood of the points ``by`` alone."""
         by_data = weighted(points, likelihood * by, marched["density"].values)
-        return _posterior(by_data, points, values, agrees) | {"met": int((within_sigma & by).sum())}
+        by_blade = np.bincount(marched["number"].values, by_data.weights)
+        return _posterior(by_data, points, values, agrees) | {
+            "met": int((within_sigma & by).sum()),
+            "blades": float(1 / (by_blade**2).sum()) if by_data.evidence else 0.0,
+        }
 
     return {
         "chi_squared": float(chi_squared[best]),
@@ -104,20 +106,6 @@ def of_fit(fits: Mapping[str, Any], K: float, reading: str | None = None) -> dic
     return fits["fits"][Fit(K, reading or fits["served"]).name]
 
 
-def posterior_of(fits: Mapping[str, Any], name: str) -> dict[str, Any]:
-    """One of ``POSTERIORS``, by the reading that was served."""
-    K, data = POSTERIORS[name]
-    return of_fit(fits, K)[data]
-
-
-def off_medoid(fits: Mapping[str, Any], points: Points, point: NDArray[np.float64]) -> float | None:
-    """Mean distance of a point from all points of ``TAKEN``, over that of its medoid, less 1.
-
-    None without a medoid; 0: as central as the medoid.
-    """
-    taken = posterior_of(fits, TAKEN)
-    if taken["medoid"] is None:
-        return None
-    pair = np.stack([point, points[taken["medoid"]]])
-    distance, least = mean_distance(points, np.array(taken["weights"]), pair)
-    return float(distance / least - 1)
+def posterior_of(fits: Mapping[str, Any]) -> dict[str, Any]:
+    """That with C12 and C16, by the reading that was served, whose medoid and draws are used."""
+    return of_fit(fits, K_TAKEN)[WITH_ORDER]

@@ -1,60 +1,80 @@
-"""Points of the tables to be computed, and the computed tables."""
+"""Points of the tables: a blade of the prior, and places of the other parameters.
 
-from typing import TypedDict
+A table's file has rows of a cube: the first coordinate stands for the blade, the others for the
+parameters after its shape, in the order of ``priors.NAMES``.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Self, TypedDict
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
-from rom.model import Rom
-from simulate.sweeps.design_runs import Rows
-from workflow.identify.priors import Priors
-from workflow.identify.proposal import SEED, drawn
-from workflow.identify.table import design, observed, settings, sobol, stiffness
+from workflow.identify.blades import BladeNumbers
+from workflow.identify.priors import NAMES, SHAPE, Points, Priors, sobol
+
+UNIT = NAMES.index("unit_Pa") - len(SHAPE)  # of the parameters after the shape
+
+type Values = dict[str, NDArray[np.float64]]  # (points,) of each parameter
 
 
 class TablePoints(TypedDict):
     """Points of a table, as its file has them."""
 
     data: str | None  # by which they were drawn, of ``likelihood.DATA``; None of the prior
-    points: list[list[float]]  # (points, parameters), in the unit cube
-    settings: dict[str, list[float]]  # values (points,) of the scene's keys
+    cube: list[list[float]]
 
 
-def table(
-    points: list[TablePoints],
-    rows: list[Rows],
-    rom: Rom,
-    reference: Rom,
-    priors: Priors,
-    number: int,
-    data: str | None,
-) -> TablePoints:
-    """Points of a table, and the keys of the scene there.
+@dataclass(frozen=True)
+class Blades:
+    """The blades of a prior, equally likely."""
 
-    They are of the prior, or drawn by ``data`` from the tables before it.
-    """
-    new = sobol(number, SEED) if data is None else drawn(marched(points, rows), number, data)
-    columns = settings(priors, new, stiffness(rom) / stiffness(reference))
-    return {
-        "data": data,
-        "points": new.tolist(),
-        "settings": {column: values.tolist() for column, values in columns.items()},
-    }
+    places: Points  # (blades, shape), in the unit cube
+    softness: NDArray[np.float64]  # (blades,), of mode 1 at the tip, as a shift of the unit's place
+
+    @classmethod
+    def of(cls, blades: Sequence[BladeNumbers], priors: Priors) -> Self:
+        """The blades of their files."""
+        stiffness = np.log([blade["stiffness"] for blade in blades])
+        softness = (stiffness.mean() - stiffness) / priors.unit_Pa.width
+        return cls(np.array([blade["places"] for blade in blades]), softness)
+
+    def number(self, cube: Points) -> NDArray[np.int64]:
+        """Number (points,) of each point's blade."""
+        return (cube[:, 0] * len(self.places)).astype(int)
+
+    def points(self, cube: Points) -> Points:
+        """Places (points, parameters) in the unit cube of all parameters."""
+        return np.hstack([self.places[self.number(cube)], cube[:, 1:]])
+
+    def features(self, cube: Points) -> Points:
+        """What an emulator is a function of (points, others): the unit over the stiffness.
+
+        The shape does no more to it than that.
+        """
+        features = cube[:, 1:].copy()
+        features[:, UNIT] += self.softness[self.number(cube)]
+        return features
 
 
-def csv(table: TablePoints) -> str:
-    """The table of a design that these points give."""
-    return design({column: np.array(values) for column, values in table["settings"].items()})
+def of_prior(number: int, seed: int) -> Points:
+    """Rows of the cube, drawn by the prior."""
+    return sobol(number, 1 + len(NAMES) - len(SHAPE), seed)
 
 
-def marched(points: list[TablePoints], rows: list[Rows]) -> list[xr.Dataset]:
-    """The tables computed so far: the values ``observed``, and `points` (point, parameter).
+def value_at(values: Mapping[str, Sequence[float]] | Values, point: int) -> dict[str, float]:
+    """The parameters of one point."""
+    return {name: float(samples[point]) for name, samples in values.items()}
 
-    Attribute `data`: that its points were drawn by, of ``likelihood.DATA``; None: by none.
-    """
-    return [
-        observed(table_rows)
-        .assign(points=(("point", "parameter"), one["points"]))
-        .assign_attrs(data=one["data"])
-        for one, table_rows in zip(points, rows, strict=True)
-    ]
+
+def placed(peaks: xr.Dataset, cube: Points, blades: Blades) -> xr.Dataset:
+    """The peaks of a table with `cube`, `points`, `features` (point, ...) and `number` (point,)."""
+    points, features = blades.points(cube), blades.features(cube)
+    return peaks.assign(
+        cube=(("point", "coordinate"), cube),
+        points=(("point", "parameter"), points),
+        features=(("point", "feature"), features),
+        number=("point", blades.number(cube)),
+    ).assign_attrs(blades=blades)

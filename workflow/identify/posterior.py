@@ -63,18 +63,6 @@ def medoid(points: Points, weights: NDArray[np.float64], among: NDArray[np.bool_
     >>> medoid(line, np.full(4, 0.25), among), medoid(line, np.array([0.0, 0.1, 0.1, 0.8]), among)
     (1, 3)
     """
-    inside = np.flatnonzero(among)
-    return int(inside[mean_distance(points, weights, points[inside]).argmin()])
-
-
-def mean_distance(
-    points: Points, weights: NDArray[np.float64], others: Points
-) -> NDArray[np.float64]:
-    """Weighted mean distance from all ``points`` of each point of ``others``.
-
-    >>> mean_distance(np.array([[0.0], [1.0]]), np.array([0.75, 0.25]), np.array([[0.0], [1.0]]))
-    array([0.25, 0.75])
-    """
-    support = np.flatnonzero(weights)
-    distances = np.linalg.norm(others[:, None] - points[None, support], axis=2)
-    return distances @ weights[support]
+    inside, support = np.flatnonzero(among), np.flatnonzero(weights)
+    distances = np.linalg.norm(points[inside][:, None] - points[None, support], axis=2)
+    return int(inside[(distances @ weights[support]).argmin()])

@@ -14,9 +14,10 @@ from scipy.interpolate import RBFInterpolator
 from scipy.stats import chi2
 
 from workflow.identify.likelihood import FITS, FOUR_SHIFTS, WITH_ORDER
+from workflow.identify.points import of_prior
 from workflow.identify.posterior import systematic
 from workflow.identify.priors import Points
-from workflow.identify.table import joined, sobol
+from workflow.identify.table import joined
 
 CANDIDATES = 2**18  # points of the prior from which those of a table are drawn
 SEED = 1  # of the prior's points; those after it count on
@@ -34,10 +35,10 @@ def served(prior: xr.Dataset) -> str:
     By the least chi squared that the emulator finds. All four shifts are left where it is beyond
     ``LEVEL`` of its distribution.
     """
-    points, among = prior["points"].values, candidates([prior])
+    features, among = prior["features"].values, prior.attrs["blades"].features(candidates([prior]))
     least = {
         reading: min(
-            least_chi_squared(points, each_fit.deviations(prior["over_crossing"].values), among)
+            least_chi_squared(features, each_fit.deviations(prior["over_crossing"].values), among)
             for each_fit in FITS
             if each_fit.reading == reading
         )
@@ -48,29 +49,30 @@ def served(prior: xr.Dataset) -> str:
 
 
 def candidates(tables: Sequence[xr.Dataset]) -> Points:
-    """Points of the prior from which those of the table after ``tables`` are drawn."""
-    return sobol(CANDIDATES, SEED + len(tables))
+    """Rows of the cube from which those of the table after ``tables`` are drawn."""
+    return of_prior(CANDIDATES, SEED + len(tables))
 
 
 def drawn(tables: Sequence[xr.Dataset], number: int, data: str) -> Points:
-    """Points of the table after ``tables``, drawn by ``data``, one of ``DATA``."""
+    """Rows of the cube of the table after ``tables``, drawn by ``data``, one of ``DATA``."""
     among = candidates(tables)
     rng = np.random.default_rng(SEED + len(tables))
     return among[systematic(proposal(tables, among, data), number, rng)]
 
 
-def proposal(tables: Sequence[xr.Dataset], places: Points, data: str) -> NDArray[np.float64]:
-    """Density (places,), relative to the prior, from which points are drawn after ``tables``.
+def proposal(tables: Sequence[xr.Dataset], cube: Points, data: str) -> NDArray[np.float64]:
+    """Density (points,), relative to the prior, from which points are drawn after ``tables``.
 
     Equal parts of the emulated posteriors with either K of E = 1, without a K whose evidence is
     less than ``UNSUPPORTED`` of the other's. ``data``: one of ``DATA``.
     """
     every, reading = joined(tables), served(tables[0])
-    points, everywhere = every["points"].values, np.vstack([candidates(tables), places])
+    features = every["features"].values
+    everywhere = tables[0].attrs["blades"].features(np.vstack([candidates(tables), cube]))
     likelihoods = np.array(
         [
             emulated(
-                points,
+                features,
                 each_fit.deviations(every["over_crossing"].values),
                 everywhere,
                 each_fit.stiffer_is_more(every) if data == WITH_ORDER else None,

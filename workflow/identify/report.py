@@ -8,7 +8,7 @@ from typing import Any
 from workflow.identify.fits import TWO_NEAREST, of_fit
 from workflow.identify.likelihood import FITS, K_OF_E1, SHIFTS, WITH_ORDER, Fit
 from workflow.identify.priors import NAMES
-from workflow.identify.shares import JUDGED, distributions
+from workflow.identify.shares import JUDGED
 from workflow.markdown import LEAST, percent, records, table
 from workflow.paper.claims import CLAIMS
 
@@ -28,6 +28,7 @@ def fits(numbers: Mapping[str, Any]) -> str:
         "effective size",
         BOTH,
         "effective size with these",
+        "and blades",
     ]
     listed = table(head, [_fit(each_fit, numbers["fits"][each_fit.name]) for each_fit in FITS])
     return f"{listed}\n\nThe points were drawn for the reading `{numbers['served']}`."
@@ -36,7 +37,7 @@ def fits(numbers: Mapping[str, Any]) -> str:
 def _fit(data_fit: Fit, numbers: Mapping[str, Any]) -> list[str]:
     shifts, with_order = numbers[SHIFTS], numbers[WITH_ORDER]
     if not shifts["evidence"]:
-        return [data_fit.name, "no point has all peaks", *[""] * 6]
+        return [data_fit.name, "no point has all peaks", *[""] * 7]
     return [
         data_fit.name,
         f"{numbers['chi_squared']:.2g}",
@@ -46,6 +47,7 @@ def _fit(data_fit: Fit, numbers: Mapping[str, Any]) -> list[str]:
         f"{shifts['effective']:.0f}",
         percent(with_order["evidence"] / shifts["evidence"], LEAST),
         f"{with_order['effective']:.0f}",
+        f"{with_order['blades']:.0f}",
     ]
 
 
@@ -114,18 +116,6 @@ def ranges(numbers: Mapping[str, Any]) -> str:
     return table(["", *columns], [*rows, [f"`fourth_over_second` below {TWO_NEAREST}", *shares]])
 
 
-def of_scene(distance: Mapping[str, float | None]) -> str:
-    """How near the scenes' values are to the medoid."""
-    off = distance["off_medoid"]
-    if off is None:
-        return "No point of the posterior has the paper's speeds of EO 4: there is no medoid."
-    return fill(
-        f"The scenes keep the medoid of an earlier run, in the mean {abs(off):.1%} "
-        f"{'nearer to' if off < 0 else 'farther from'} all points of the posterior than today's.",
-        WIDTH,
-    )
-
-
 def _range(distribution: Mapping[str, Any], name: str) -> str:
     """Median of a parameter, with 5 and 95 %, in a posterior or in the prior."""
     if distribution["ranges"] is None:
@@ -134,42 +124,19 @@ def _range(distribution: Mapping[str, Any], name: str) -> str:
     return f"{median} ({low} to {high})"
 
 
-def blades(by_blade: Mapping[str, Any]) -> str:
-    """One row for each blade and K: how near the fit comes, and its parameters."""
-    rows = [
-        {"blade, K of E = 1, reading": f"{blade}, {K}, {numbers['served']}"} | _blade_cells(fit)
-        for blade, numbers in by_blade.items()
-        for K, fit in numbers["fits"].items()
-    ]
-    return records(rows)
-
-
-def _blade_cells(fit: Mapping[str, Any]) -> dict[str, object]:
-    possible = fit["evidence"] > 0
-    return {
-        "least χ²": f"{fit['chi_squared']:.2g}",
-        MET: fit["met"],
-        "effective size": f"{fit['effective']:.0f}",
-        BOTH: percent(fit["evidence_with_order"] / fit["evidence"], LEAST) if possible else "",
-        **{f"`{name}`": _range(fit, name) for name in NAMES},
-    }
-
-
 def shares(numbers: Mapping[str, Any]) -> str:
-    """Share of the draws of the prior and of the posterior at which each claim holds."""
+    """Share of the draws of the posterior at which each claim holds."""
     says = {claim.id: claim.says for claim in CLAIMS}
-    columns = {
-        f"{name}, K = {K:g} ({drawn['draws']} draws)": drawn
-        for K in K_OF_E1
-        for name, drawn in distributions(numbers, f"{K:g}").items()
-    }
     rows = [
-        [claim, says[claim], *(_share(drawn, claim) for drawn in columns.values())]
+        {
+            "": claim,
+            "the paper says": says[claim],
+            f"holds in {numbers['draws']} draws": _share(numbers, claim),
+        }
         for claim in JUDGED
     ]
-    most = [str(drawn["most at once"]) for drawn in columns.values()]
-    rows.append(["", f"most of these {len(JUDGED)} at one draw", *most])
-    return table(["", "the paper says", *columns], rows)
+    most = f"most of these {len(JUDGED)} at one draw: {numbers['most at once']}"
+    return f"{records(rows)}\n\n{most.capitalize()}."
 
 
 def _share(shares: Mapping[str, Any], claim: str) -> str:

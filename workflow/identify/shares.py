@@ -6,8 +6,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from workflow.identify.fits import POSTERIORS, PRIOR
-from workflow.identify.likelihood import K_OF_E1
 from workflow.paper.claims import CLAIMS
 from workflow.paper.verdict import HOLDS, judge
 
@@ -18,34 +16,18 @@ JUDGED = ("C12", "C13", "C14", "C15", "C16", "C17", "C18", "C19", "C20", "C25", 
 type Verdicts = Mapping[str, str]  # by claim
 
 
-def numbers(
-    measured: list[list[dict[str, Any]]], draws: Sequence[str]
-) -> dict[str, dict[str, Any]]:
-    """Shares at which the claims hold, by draws and by K of the coating with E = 1.
+def numbers(measured: list[list[dict[str, Any]]]) -> dict[str, Any]:
+    """Shares of the draws at which the claims hold; ``measured``: numbers at draws, of a job each.
 
-    ``measured``: numbers at draws, of a job each; ``draws``: which.
+    Empty without draws: of a posterior of too few effective points.
     """
-    jobs = [*zip(draws, measured, strict=True)]
-    by_draws = {
-        name: [row for drawn, rows in jobs if drawn == name for row in rows] for name in draws
-    }
-    return {
-        name: {
-            f"{K:g}": shares([verdicts(draw, f"{K:g}") for draw in each])
-            for K in K_OF_E1
-            if f"e1 {K:g}" in each[0]
-        }
-        for name, each in by_draws.items()
-        if each  # a posterior of too few effective points has no draws
-    }
+    draws = [draw for block in measured for draw in block]
+    return shares([verdicts(draw) for draw in draws]) if draws else {}
 
 
-def verdicts(draw: Mapping[str, Any], K: str) -> Verdicts:
-    """Verdict of each claim on the numbers of one draw, with K of the coating with E = 1."""
-    numbers = {**draw, "e1": draw[f"e1 {K}"]}
-    return {
-        claim.id: judge(claim, numbers, {})["verdict"] for claim in CLAIMS if claim.id in JUDGED
-    }
+def verdicts(draw: Mapping[str, Any]) -> Verdicts:
+    """Verdict of each claim on the numbers of one draw."""
+    return {claim.id: judge(claim, draw, {})["verdict"] for claim in CLAIMS if claim.id in JUDGED}
 
 
 def shares(verdicts: Sequence[Verdicts]) -> dict[str, Any]:
@@ -74,12 +56,3 @@ def shares(verdicts: Sequence[Verdicts]) -> dict[str, Any]:
 
 def _by_claim(values: NDArray[np.float64]) -> dict[str, float]:
     return dict(zip(JUDGED, values.tolist(), strict=True))
-
-
-def distributions(shares: Mapping[str, Any], K: str) -> dict[str, Mapping[str, Any]]:
-    """Shares of all draws with K of the coating with E = 1, by name, as far as there are any."""
-    names = {
-        PRIOR: "prior",
-        **{name: f"posterior, {data}" for name, (_, data) in POSTERIORS.items()},
-    }
-    return {names[draws]: by_K[K] for draws, by_K in shares.items() if K in by_K}

@@ -5,7 +5,7 @@ from math import sqrt
 from textwrap import fill
 from typing import Any
 
-from workflow.identify.fits import DRAWS, TAKEN, posterior_of
+from workflow.identify.fits import DRAWS, posterior_of
 from workflow.identify.report import WIDTH, factors
 from workflow.paper.report import Row, named
 from workflow.paper.verdict import HOLDS
@@ -98,8 +98,8 @@ def _group(row: Row) -> str:
 
 
 def _share(row: Row) -> float | None:
-    """Share of the draws of the posterior; None for a claim that is not judged there."""
-    return next((share for name, share in row["shares"].items() if name != "prior"), None)
+    """Share of the draws, of the first prior; None for a claim that is not judged there."""
+    return next(iter(row["shares"].values()), None)
 
 
 def _line(row: Row) -> str:
@@ -132,7 +132,7 @@ def _long(numbers: Mapping[str, Any]) -> str:
 
 
 def _experiment(fits: Mapping[str, Any]) -> str:
-    taken, prior = posterior_of(fits, TAKEN), fits["prior"]
+    taken, prior = posterior_of(fits), fits["prior"]
     return EXPERIMENT.format(
         unit=factors(fits, taken, "unit_Pa"),
         casing=factors(fits, taken, "casing_gaps"),

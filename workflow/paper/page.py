@@ -6,16 +6,12 @@ from html import escape
 from jinja2 import Environment
 
 from geometry.project import read_json
-from workflow.identify.fits import POSTERIORS, TAKEN
-from workflow.identify.shares import distributions
 from workflow.paper.claims import CLAIMS
 from workflow.paper.editions import editions
 from workflow.paper.report import Row, counts, markdown as table, named, ours, share, verdicts
 from workflow.paper.verdict import Numbers
 
 __all__ = ["claims", "html", "table"]  # the claims, and texts that the rule writes of them
-
-K_OF_E1 = f"{POSTERIORS[TAKEN][0]:g}"  # of the draws whose shares are shown
 
 BESIDE = {  # figures shown before that of the claims
     "fig10b": ("fig10a",),
@@ -96,8 +92,8 @@ def claims(numbers: Numbers, further: Mapping[str, Mapping[str, str]]) -> list[R
         group: editions(**further[group]) if group in further else {}
         for group in ("repeats", "other", "causes")
     }
-    shares = distributions(read_json(**further["shares"]), K_OF_E1) if "shares" in further else {}
-    holds = {name: draws["holds"] for name, draws in shares.items()}
+    shares = {name: read_json(file) for name, file in further.get("shares", {}).items()}
+    holds = {f"{name} prior": draws["holds"] for name, draws in shares.items() if draws}
     return verdicts(CLAIMS, numbers, **groups, shares=holds)
 
 

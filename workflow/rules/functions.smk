@@ -18,7 +18,7 @@ FIGURES = table.Figures(
         "fatigue": lambda blade: blade in MESHED and blade_settings(blade).fatigue is not None,
     },
 )
-PAPER_BLADE = "reference"
+PAPER_BLADE = "paper"
 
 
 def of_figure(told, name):
@@ -143,7 +143,7 @@ def further_files():
         "paper_uncertainty": {"repeats": of("repeats", "growth")},
         "paper_causes": {"causes": of("causes")},
         "paper_rotor37": {"other": of("rotor37", "growth") | {"model": model}},
-        "identify": {"shares": {"path": "results/identify/reference/shares.json"}},
+        "identify": {"shares": {name: f"results/identify/{name}/shares.json" for name in PRIORS}},
     }
 
 
@@ -184,11 +184,13 @@ def folders_of_targets(wildcards):
     """Folders with the benchmarks of the jobs of each target."""
     swept = [*(f"paper-{name}" for name in (*SWEPT, *OTHERS)), *BEYOND]
     folders = {
-        "blade, mesh, reduced models": ["reference", "reference-paper"],
-        "paper": ["paper", "experiments/grid", *(f"reference/{name}" for name in swept)],
-        "paper_uncertainty": ["reference-rich", "experiments/repeats"],
-        "paper_causes": ["reference-linear", "reference-wide", "experiments/causes"],
-        "paper_rotor37": ["rotor37-fast", "rotor37-fast-paper", "experiments/rotor37"],
+        "paper": [
+            *("paper", "paper-points", "reference-points", "experiments/grid"),
+            *(f"paper/{name}" for name in swept),
+        ],
+        "paper_uncertainty": ["paper-rich", "experiments/repeats"],
+        "paper_causes": ["paper-nonlinear", "paper-wide", "experiments/causes"],
+        "paper_rotor37": ["rotor37-fast", "rotor37-fast-points", "experiments/rotor37"],
     }
     return {target: [f"results/{name}" for name in names] for target, names in folders.items()}
 
@@ -209,9 +211,9 @@ def scene_of_density(wildcards):
     return SCENES["paper-density-1"].model_dump(mode="json")
 
 
-# Blades of the identification by name, and the scenes of their tables.
-IDENTIFIED = {"reference": "identify", "rotor37": "identify-rotor37", "leaned": "identify-leaned"}
-JUDGED_ON = "reference"  # the blade on which the claims are judged at draws, too
+# Ranges of the identification, workflow/identify/NAME.yaml. The scenes of the paper take the medoid of the first.
+PRIORS = ("narrow", "wide")
+PRIOR_BLADES = 64  # of each
 # Points of each table, and the data by which they are drawn from what the tables before it say.
 TABLES = {
     "prior": (256, None),
@@ -221,10 +223,7 @@ TABLES = {
     "fourth": (256, "with C12 and C16"),
     "fifth": (256, "with C12 and C16"),
 }
-TABLES_OF_OTHERS = ["prior", "first", "second"]  # of a blade on which only the shifts are fitted
-# Draws at which the paper's other claims are judged: of the prior, and of posteriors: by K of E = 1, and data.
-DRAWS = ("prior", "4.55-with-order")
-DRAW_BLOCKS = 10  # jobs for each of them
+DRAW_BLOCKS = 10  # jobs for the draws at which the paper's other claims are judged
 # Scenes of these claims.
 CLAIM_SCENES = {
     "e10": "identify-e10",
@@ -234,24 +233,41 @@ CLAIM_SCENES = {
 }
 
 
-def scene_of_identified(wildcards):
-    return SCENES[IDENTIFIED[wildcards.identified]]
+def base_of_priors(wildcards):
+    """The blade whose shape is drawn."""
+    return blade_settings("identified").model_dump(mode="json", exclude_unset=True)
 
 
-def settings_of_identified(wildcards):
-    """Settings of the scene of a table, as the jobs of designs take them."""
-    return (
-        scene_of_identified(wildcards).but(design=f"{wildcards.sample}.csv").model_dump(mode="json")
-    )
+def of_prior(wildcards, pattern, names):
+    """Files of a prior."""
+    return [f"results/identify/{wildcards.prior}/{pattern.format(name)}" for name in names]
 
 
-def rom_of_identified(wildcards):
-    scene = scene_of_identified(wildcards)
-    return f"results/{scene.blade}/rom-{scene.directions}.nc"
+def blades_of_prior(wildcards):
+    return of_prior(wildcards, "blade-{}.json", range(PRIOR_BLADES))
 
 
-def check_of_identified(wildcards):
-    return ancient(f"results/{scene_of_identified(wildcards).blade}/rom-check-r.nc")
+def roms_of_prior(wildcards):
+    return expand("results/{{prior}}-{number}/rom-r.nc", number=range(PRIOR_BLADES))
+
+
+def number_of_blades(wildcards):
+    return PRIOR_BLADES
+
+
+def scene_of_tables(wildcards):
+    """The scene of every row; its parameters are those of the row's point."""
+    return without_parameters({"": SCENES["identify"]})[""]
+
+
+def without_parameters(scenes):
+    """Scenes without the parameters that every point sets: these rerun nothing."""
+    from workflow.identify.measured import scenes_at
+    from workflow.identify.priors import NAMES
+
+    values = dict.fromkeys(NAMES, 1.0) | {"unit_Pa": 1.0e9, "damping_ratio": 0.01}
+    found = scenes_at(scenes, values, "identified")
+    return {part: scene.model_dump(mode="json") for part, scene in found.items()}
 
 
 def blocks_of_table(wildcards):
@@ -260,39 +276,22 @@ def blocks_of_table(wildcards):
 
 
 def files_of_blocks(wildcards):
-    samples = [f"{wildcards.sample}-block-{block}" for block in range(CONFIG.blocks)]
-    return of_identified(wildcards, "{}.nc", samples)
-
-
-def of_identified(wildcards, pattern, samples):
-    """Files of tables of a blade."""
-    return [f"results/identify/{wildcards.identified}/{pattern.format(of)}" for of in samples]
-
-
-def all_samples(wildcards):
-    """Names of all tables of a blade."""
-    return [*TABLES] if wildcards.identified == JUDGED_ON else TABLES_OF_OTHERS
+    blocks = [f"{wildcards.sample}-block-{block}" for block in range(CONFIG.blocks)]
+    return of_prior(wildcards, "{}.json", blocks)
 
 
 def samples_before(wildcards):
-    """The tables before one."""
-    return list(TABLES)[: list(TABLES).index(wildcards.sample)]
+    """The tables before one; all, without one."""
+    names = [*TABLES]
+    return names[: names.index(wildcards.sample)] if "sample" in wildcards.keys() else names
 
 
 def points_before(wildcards):
-    return of_identified(wildcards, "{}.json", samples_before(wildcards))
+    return of_prior(wildcards, "{}.json", samples_before(wildcards))
 
 
 def rows_before(wildcards):
-    return of_identified(wildcards, "{}-rows.nc", samples_before(wildcards))
-
-
-def all_points(wildcards):
-    return of_identified(wildcards, "{}.json", all_samples(wildcards))
-
-
-def all_rows(wildcards):
-    return of_identified(wildcards, "{}-rows.nc", all_samples(wildcards))
+    return of_prior(wildcards, "{}-rows.json", samples_before(wildcards))
 
 
 def points_of_table(wildcards):
@@ -300,49 +299,13 @@ def points_of_table(wildcards):
     return dict(zip(("number", "data"), TABLES[wildcards.sample]))
 
 
-def parameters_of_scene(wildcards):
-    """Parameters of the paper's scenes, which took the medoid of a run of the tables."""
-    from workflow.identify.table import parameters
-
-    return parameters(SCENES["paper"])
-
-
-def fits_of_draws(wildcards):
-    of_prior = wildcards.draws == "prior"
-    return [] if of_prior else [f"results/identify/{wildcards.identified}/fits.json"]
-
-
-def tables_of_draws(wildcards):
-    samples = ["prior"] if wildcards.draws == "prior" else all_samples(wildcards)
-    return of_identified(wildcards, "{}.csv", samples)
-
-
-def claim_scenes():
-    """Scenes of the claims, without the parameters that every draw sets: these rerun nothing."""
-    from workflow.identify.measured import scenes_at
-
-    scenes = {part: SCENES[name] for part, name in CLAIM_SCENES.items()}
-    return scenes_at(scenes, SCENES["identify"], span=1.0)
-
-
 def given_draws(wildcards):
     return {
-        "scene": scene_of_identified(wildcards).model_dump(mode="json"),
-        "parts": {part: scene.model_dump(mode="json") for part, scene in claim_scenes().items()},
-        "draws": wildcards.draws,
-        "block": int(wildcards.block),
+        "parts": without_parameters({part: SCENES[name] for part, name in CLAIM_SCENES.items()}),
         "blocks": DRAW_BLOCKS,
-        "folder": f"results/identify/{wildcards.identified}/measured/parts",
+        "folder": f"results/identify/{wildcards.prior}/measured/parts",
     }
 
 
-ALL_BLOCKS = [(draws, block) for draws in DRAWS for block in range(DRAW_BLOCKS)]
-
-
 def all_measured(wildcards):
-    names = [f"{draws}-{block}" for draws, block in ALL_BLOCKS]
-    return of_identified(wildcards, "measured/{}.json", names)
-
-
-def draws_of_measured(wildcards):
-    return [draws for draws, _ in ALL_BLOCKS]
+    return of_prior(wildcards, "measured/{}.json", range(DRAW_BLOCKS))

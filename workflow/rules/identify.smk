@@ -1,20 +1,14 @@
 # The identification: what the tables of the engine, of numbers.yaml, say of the parameters.
 wildcard_constraints:
+    prior=one_of(PRIORS),
+    number=r"\d+",
     sample=one_of(TABLES),
-    identified=one_of(IDENTIFIED),
-    draws=one_of(DRAWS),
 
 
 rule identify:
     input:
         expand(
-            "results/identify/{identified}/{file}",
-            identified=IDENTIFIED,
-            file=["fits.json", "posterior.png"],
-        ),
-        "results/identify/blades.json",
-        expand(
-            "results/identify/{identified}/{file}",
-            identified=JUDGED_ON,
-            file=["scene.json", "shares.json", "together.png"],
+            "results/identify/{prior}/{file}",
+            prior=PRIORS,
+            file=["fits.json", "posterior.png", "shares.json", "together.png"],
         ),

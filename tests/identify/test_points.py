@@ -1,0 +1,39 @@
+"""Points as blades and places, and what the emulator sees of them."""
+
+import numpy as np
+import pytest
+
+from workflow.identify.points import UNIT, Blades, of_prior, value_at
+from workflow.identify.priors import NAMES, SHAPE
+
+
+def blade(place, stiffness):
+    return {"places": [place] * len(SHAPE), "stiffness": stiffness}
+
+
+def test_each_blade_is_as_likely_and_has_its_own_shape(narrow):
+    blades = Blades.of([blade(i / 4, 1e6) for i in range(4)], narrow)
+    cube = of_prior(64, 1)
+    number, points = blades.number(cube), blades.points(cube)
+    assert np.bincount(number).tolist() == [16] * 4
+    assert points.shape == (64, len(NAMES))
+    np.testing.assert_array_equal(
+        points[:, : len(SHAPE)], np.repeat(number[:, None] / 4, 7, axis=1)
+    )
+    np.testing.assert_array_equal(points[:, len(SHAPE) :], cube[:, 1:])
+
+
+def test_features_have_the_unit_over_the_stiffness_of_the_blade(narrow):
+    """Equal units on a blade ten times as stiff: lower by a decade of the prior's 2.5."""
+    blades = Blades.of([blade(0.5, 1e6), blade(0.5, 1e7)], narrow)
+    cube = np.full((2, 7), 0.25)
+    cube[1, 0] = 0.75
+    soft, stiff = blades.features(cube)
+    assert soft[UNIT] - stiff[UNIT] == pytest.approx(1 / np.log10(300))
+    assert (np.delete(soft, UNIT) == np.delete(stiff, UNIT)).all()
+    assert blades.points(cube)[0, len(SHAPE) + UNIT] == 0.25
+
+
+def test_values_of_one_point():
+    values = {"unit_Pa": [1e9, 2e9], "damping_ratio": np.array([0.01, 0.02])}
+    assert value_at(values, 1) == {"unit_Pa": 2e9, "damping_ratio": 0.02}
