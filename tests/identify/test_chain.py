@@ -16,11 +16,11 @@ from workflow.identify import measured, numbers, report, shares
 from workflow.identify.fits import prior_numbers
 from workflow.identify.likelihood import FITS, SHIFTS, WITH_ORDER
 from workflow.identify.measured import cases, scenes_at
-from workflow.identify.points import value_at
+from workflow.identify.points import Blades, value_at
 from workflow.identify.priors import SHAPE, sobol
 from workflow.identify.shares import JUDGED, verdicts
 from workflow.identify.steps import steps_per_round
-from workflow.identify.table import march, merged
+from workflow.identify.table import march, tables
 from workflow.paper import grid
 
 FOLDER = Path(numbers.__file__).parents[1]
@@ -69,20 +69,30 @@ def chain(coarse_rom, narrow, tmp_path_factory):
     of.blades = [{"places": shape, "stiffness": 1e6} for shape in shapes]
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(folder)
-        for number, data in TABLES.values():
-            table = numbers.table(of.points, of.rows, of.blades, narrow, number, data)
-            blocks = [
+        for name, (number, data) in TABLES.items():
+            table = numbers.table(of.rows, of.blades, narrow, number, data)
+            of.rows += [
                 march(
                     table, of.blades, of.roms, narrow, short("identify"), "parts",
-                    NAMES | {"block": str(block)}, 2,
+                    {"prior": "narrow", "sample": name, "block": str(block)}, 2,
                 )
                 for block in range(2)
             ]  # fmt: skip
             of.points.append(table)
-            of.rows.append(merged(blocks))
-    of.fits = numbers.fits(of.points, of.rows, of.blades, narrow)
+    of.fits = numbers.fits(of.rows, of.blades, narrow)
     of.folder = folder
     return of
+
+
+def test_the_points_of_a_table_are_marched_once_on_their_blade(chain, narrow):
+    """In two blocks, each of every second blade."""
+    marched = tables(chain.rows, Blades.of(chain.blades, narrow))
+    for table, points in zip(marched, chain.points, strict=True):
+        cube = np.array(points["cube"])
+        assert sorted(map(tuple, table["cube"].values)) == sorted(map(tuple, cube))
+        assert table.attrs["data"] == points["data"]
+    blades = [{*np.floor(BLADES * np.array(rows["cube"])[:, 0])} for rows in chain.rows[:2]]
+    assert [len(of) for of in blades] == [BLADES // 2] * 2 and not blades[0] & blades[1]
 
 
 def test_all_fits_weigh_the_points_of_all_tables(chain):

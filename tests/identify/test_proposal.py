@@ -2,15 +2,14 @@
 
 import numpy as np
 import pytest
-import xarray as xr
 from scipy.stats import norm
 
 from workflow.identify.fits import drawn as every, fit, posterior_of
 from workflow.identify.likelihood import SHIFTS, WITH_ORDER, Fit
-from workflow.identify.points import Blades, of_prior, placed
+from workflow.identify.points import Blades, of_prior
 from workflow.identify.priors import SHAPE, sobol
 from workflow.identify.proposal import drawn, proposal, served
-from workflow.identify.table import COATINGS, ORDERS
+from workflow.identify.table import COATINGS, ORDERS, placed
 from workflow.paper.printed import CONSISTENT, CRITICAL
 
 SPREAD = 0.2  # of the shifts over the unit cube
@@ -41,8 +40,7 @@ def made(cube, crossing_of_6=0.17, soft=(0.0, 0.0), data=None):
     amplitude = np.ones_like(over_crossing)
     amplitude[:, 2] += (points[:, 2] > 0.5)[:, None] - 0.5
     peaks = {"over_crossing": over_crossing, "amplitude": amplitude, "wear": amplitude}
-    found = {name: (("point", "coating", "order"), values) for name, values in peaks.items()}
-    return placed(xr.Dataset(found), cube, BLADES).assign_attrs(data=data)
+    return placed([{"data": data, "cube": cube, **peaks}], BLADES)
 
 
 def tables(data=SHIFTS, **shape):

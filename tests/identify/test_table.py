@@ -9,10 +9,10 @@ import xarray as xr
 from simulate.scene import LEADING, Scene
 from workflow.identify import priors
 from workflow.identify.measured import at_point
-from workflow.identify.points import value_at
-from workflow.identify.priors import NAMES, sobol
+from workflow.identify.points import Blades, of_prior, value_at
+from workflow.identify.priors import NAMES, SHAPE, sobol
 from workflow.identify.steps import FIRM, MOST, STEPS, with_steps
-from workflow.identify.table import COATINGS, coated, joined, merged, observed, peaks, plain
+from workflow.identify.table import COATINGS, coated, joined, observed, tables
 
 SCENES = Path(priors.__file__).parents[1] / "scenes"
 
@@ -95,10 +95,16 @@ def test_only_peaks_that_would_be_named_are_observed(seen):
     assert joined([seen] * 2).amplitude.shape == (4, 3, 2)
 
 
-def test_blocks_of_a_table_are_put_in_the_order_of_its_points(seen):
-    later, first = (plain(seen.assign_coords(point=at)) for at in ([1, 3], [0, 2]))
-    both = merged([later, first])
-    assert both["point"] == [0, 1, 2, 3]
-    wear = peaks(both)["wear"].values
-    np.testing.assert_array_equal(wear[[0, 2]], seen["wear"].values)
-    np.testing.assert_array_equal(wear[[1, 3]], seen["wear"].values)
+def test_blocks_of_a_table_are_joined_and_nan_is_no_peak(seen, narrow):
+    """As of a file: null."""
+    peaks = {name: np.where(np.isnan(each), None, each).tolist() for name, each in seen.items()}
+    cube = of_prior(4, 1)
+    first, second, other = (
+        {"sample": name, "data": None, "cube": at.tolist(), **peaks}
+        for name, at in (("prior", cube[:2]), ("prior", cube[2:]), ("first", cube[:2]))
+    )
+    blades = Blades.of([{"places": [0.5] * len(SHAPE), "stiffness": 1e6}], narrow)
+    prior, later = tables([first, second, other], blades)
+    np.testing.assert_array_equal(prior["cube"], cube)
+    np.testing.assert_array_equal(prior["wear"], np.concatenate([seen["wear"]] * 2))
+    assert later.sizes["point"] == 2

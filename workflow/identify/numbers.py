@@ -3,9 +3,6 @@
 from collections.abc import Mapping
 from typing import Any
 
-import numpy as np
-import xarray as xr
-
 from geometry.project import Say, silent
 from simulate.scene import Scene
 from workflow.experiment.engine import march_block
@@ -13,15 +10,14 @@ from workflow.identify.blades import BladeNumbers
 from workflow.identify.fits import K_TAKEN, drawn, fit, posterior_of, prior_numbers
 from workflow.identify.likelihood import FITS
 from workflow.identify.measured import cases, scenes_at
-from workflow.identify.points import Blades, TablePoints, of_prior, placed, value_at
+from workflow.identify.points import Blades, TablePoints, of_prior, value_at
 from workflow.identify.priors import Priors
 from workflow.identify.proposal import SEED, drawn as proposed, served
-from workflow.identify.table import TableRows, peaks
+from workflow.identify.table import TableRows, tables
 from workflow.paper.editions import growth_of, numbers_of
 
 
 def table(
-    points: list[TablePoints],
     rows: list[TableRows],
     blades: list[BladeNumbers],
     priors: Priors,
@@ -29,35 +25,20 @@ def table(
     data: str | None,
 ) -> TablePoints:
     """Points of a table: of the prior, or drawn by ``data`` from the tables before it."""
-    if data is None:
-        new = of_prior(number, SEED)
-    else:
-        new = proposed(marched(points, rows, Blades.of(blades, priors)), number, data)
+    before = tables(rows, Blades.of(blades, priors))
+    new = of_prior(number, SEED) if data is None else proposed(before, number, data)
     return {"data": data, "cube": new.tolist()}
 
 
-def marched(points: list[TablePoints], rows: list[TableRows], blades: Blades) -> list[xr.Dataset]:
-    """The tables computed so far: peaks ``placed`` at their points.
-
-    Attribute `data`: that the points were drawn by, of ``likelihood.DATA``; None: by the prior.
-    """
-    return [
-        placed(peaks(table_rows), np.array(table["cube"]), blades).assign_attrs(data=table["data"])
-        for table, table_rows in zip(points, rows, strict=True)
-    ]
-
-
-def fits(
-    points: list[TablePoints], rows: list[TableRows], blades: list[BladeNumbers], priors: Priors
-) -> dict[str, Any]:
+def fits(rows: list[TableRows], blades: list[BladeNumbers], priors: Priors) -> dict[str, Any]:
     """All fits from all tables."""
-    tables = marched(points, rows, Blades.of(blades, priors))
-    every = drawn(tables)
+    marched = tables(rows, Blades.of(blades, priors))
+    every = drawn(marched)
     values = priors.values(every["points"].values)
     return {
         "values": {name: samples.tolist() for name, samples in values.items()},
         "blade": every["number"].values.tolist(),
-        "served": served(tables[0]),
+        "served": served(marched[0]),
         "prior": prior_numbers(priors),
         "fits": {each_fit.name: fit(each_fit, every, values) for each_fit in FITS},
     }

@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from typing import Self, TypedDict
 
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
 
 from workflow.identify.blades import BladeNumbers
@@ -67,14 +66,3 @@ def of_prior(number: int, seed: int) -> Points:
 def value_at(values: Mapping[str, Sequence[float]] | Values, point: int) -> dict[str, float]:
     """The parameters of one point."""
     return {name: float(samples[point]) for name, samples in values.items()}
-
-
-def placed(peaks: xr.Dataset, cube: Points, blades: Blades) -> xr.Dataset:
-    """The peaks of a table with `cube`, `points`, `features` (point, ...) and `number` (point,)."""
-    points, features = blades.points(cube), blades.features(cube)
-    return peaks.assign(
-        cube=(("point", "coordinate"), cube),
-        points=(("point", "parameter"), points),
-        features=(("point", "feature"), features),
-        number=("point", blades.number(cube)),
-    ).assign_attrs(blades=blades)

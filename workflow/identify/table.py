@@ -25,9 +25,11 @@ PEAKS = ("point", "coating", "order")
 
 
 class TableRows(TypedDict):
-    """Peaks at points of a table, as their file has them; null without a peak."""
+    """Points of a part of a table and their peaks, as its file has them; null without a peak."""
 
-    point: list[int]
+    sample: str  # name of the table
+    data: str | None  # by which its points were drawn, as of ``points.TablePoints``
+    cube: list[list[float]]
     over_crossing: list[list[list[float]]]  # of ``PEAKS``
     amplitude: list[list[list[float]]]  # gaps
     wear: list[list[list[float]]]  # gaps
@@ -50,15 +52,23 @@ def march(
     """
     cube, of_prior = np.array(table["cube"]), Blades.of(blades, priors)
     numbers, values = of_prior.number(cube), priors.values(of_prior.points(cube))
-    parts = []
+    parts, order = [], []
     for number in np.unique(numbers)[int(names["block"]) :: blocks]:
         points = np.flatnonzero(numbers == number)
         base = scene.but(blade=f"{names['prior']}-{number}")
         rows = [row for i in points for row in coated(at_point(base, value_at(values, i)))]
         engine = Engine.of(Design(Path(base.blade), base, [], rows), Rom.load(roms[number]))
-        marched = march_block(engine, folder, report=tell)
-        parts.append(observed(row_table(engine, marched)).assign_coords(point=points))
-    return plain(joined(parts))
+        parts.append(observed(row_table(engine, march_block(engine, folder, report=tell))))
+        order += points.tolist()
+    peaks = {name: each.values.tolist() for name, each in joined(parts).items()}
+    return {
+        "sample": names["sample"],
+        "data": table["data"],
+        "cube": cube[order].tolist(),
+        "over_crossing": peaks["over_crossing"],
+        "amplitude": peaks["amplitude"],
+        "wear": peaks["wear"],
+    }
 
 
 def coated(scene: Scene) -> list[Scene]:
@@ -78,24 +88,30 @@ def observed(rows: xr.Dataset) -> xr.Dataset:
     return by_point.transpose(*PEAKS)
 
 
-def plain(peaks: xr.Dataset) -> TableRows:
-    """The peaks of points as their file has them."""
-    return {name: peaks[name].values.tolist() for name in TableRows.__annotations__}
+def tables(blocks: Sequence[TableRows], blades: Blades) -> list[xr.Dataset]:
+    """The tables of these files, each ``placed``."""
+    samples = dict.fromkeys(block["sample"] for block in blocks)
+    return [placed([b for b in blocks if b["sample"] == name], blades) for name in samples]
 
 
-def merged(blocks: list[TableRows]) -> TableRows:
-    """The peaks of all blocks of a table, in the order of its points."""
-    return plain(joined([peaks(rows) for rows in blocks]).sortby("point"))
+def placed(blocks: Sequence[TableRows], blades: Blades) -> xr.Dataset:
+    """A table: the values ``observed``; `cube`, `points`, `features`, `number` of the blade.
 
-
-def peaks(rows: TableRows) -> xr.Dataset:
-    """The peaks of a file, as ``observed``."""
-    variables = {
-        name: (PEAKS, np.array(rows[name], float))
-        for name in TableRows.__annotations__
-        if name != "point"
+    Attributes: `data`, by which the points were drawn, of ``likelihood.DATA``, None: by the prior;
+    `blades`.
+    """
+    cube = np.vstack([block["cube"] for block in blocks])
+    peaks = {
+        name: (PEAKS, np.concatenate([np.array(block[name], float) for block in blocks]))
+        for name in ("over_crossing", "amplitude", "wear")
     }
-    return xr.Dataset(variables, {"point": rows["point"]})
+    where = {
+        "cube": (("point", "coordinate"), cube),
+        "points": (("point", "parameter"), blades.points(cube)),
+        "features": (("point", "feature"), blades.features(cube)),
+        "number": ("point", blades.number(cube)),
+    }
+    return xr.Dataset(peaks | where, attrs={"data": blocks[0]["data"], "blades": blades})
 
 
 def joined(tables: Sequence[xr.Dataset]) -> xr.Dataset:

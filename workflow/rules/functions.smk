@@ -275,23 +275,17 @@ def blocks_of_table(wildcards):
     return CONFIG.blocks
 
 
-def files_of_blocks(wildcards):
-    blocks = [f"{wildcards.sample}-block-{block}" for block in range(CONFIG.blocks)]
-    return of_prior(wildcards, "{}.json", blocks)
-
-
 def samples_before(wildcards):
     """The tables before one; all, without one."""
     names = [*TABLES]
     return names[: names.index(wildcards.sample)] if "sample" in wildcards.keys() else names
 
 
-def points_before(wildcards):
-    return of_prior(wildcards, "{}.json", samples_before(wildcards))
-
-
 def rows_before(wildcards):
-    return of_prior(wildcards, "{}-rows.json", samples_before(wildcards))
+    blocks = [
+        f"{name}-block-{i}" for name in samples_before(wildcards) for i in range(CONFIG.blocks)
+    ]
+    return of_prior(wildcards, "{}.json", blocks)
 
 
 def points_of_table(wildcards):
