@@ -66,7 +66,10 @@ def chain(coarse_rom, narrow, tmp_path_factory):
     for i, rom in enumerate(of.roms):
         origin = replace(coarse_rom.provenance, blade=f"narrow-{i}")
         replace(coarse_rom, provenance=origin).save(rom)
-    of.blades = [{"places": shape, "stiffness": 1e6} for shape in shapes]
+    of.blades = [
+        {"places": shape, "softness": 1e-6, "others": 1 + shape[0], "leading": shape[1]}
+        for shape in shapes
+    ]
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(folder)
         for name, (number, data) in TABLES.items():

@@ -7,12 +7,13 @@ from workflow.identify.points import UNIT, Blades, of_prior, value_at
 from workflow.identify.priors import NAMES, SHAPE
 
 
-def blade(place, stiffness):
-    return {"places": [place] * len(SHAPE), "stiffness": stiffness}
+def blade(place, softness, others=1.0, leading=1.0):
+    tip = {"softness": softness, "others": others, "leading": leading}
+    return {"places": [place] * len(SHAPE), **tip}
 
 
 def test_each_blade_is_as_likely_and_has_its_own_shape(narrow):
-    blades = Blades.of([blade(i / 4, 1e6) for i in range(4)], narrow)
+    blades = Blades.of([blade(i / 4, 1e-6, i + 1, i) for i in range(4)], narrow)
     cube = of_prior(64, 1)
     number, points = blades.number(cube), blades.points(cube)
     assert np.bincount(number).tolist() == [16] * 4
@@ -23,14 +24,17 @@ def test_each_blade_is_as_likely_and_has_its_own_shape(narrow):
     np.testing.assert_array_equal(points[:, len(SHAPE) :], cube[:, 1:])
 
 
-def test_features_have_the_unit_over_the_stiffness_of_the_blade(narrow):
+def test_features_have_the_unit_times_the_softness_of_the_blade(narrow):
     """Equal units on a blade ten times as stiff: lower by a decade of the prior's 2.5."""
-    blades = Blades.of([blade(0.5, 1e6), blade(0.5, 1e7)], narrow)
+    blades = Blades.of([blade(0.5, 1e-6, 0.1, 0.5), blade(0.5, 1e-7, 10.0, 1.5)], narrow)
     cube = np.full((2, 7), 0.25)
     cube[1, 0] = 0.75
     soft, stiff = blades.features(cube)
     assert soft[UNIT] - stiff[UNIT] == pytest.approx(1 / np.log10(300))
-    assert (np.delete(soft, UNIT) == np.delete(stiff, UNIT)).all()
+    others = np.arange(1, 6)
+    assert (soft[others] == stiff[others]).all() and UNIT == 0
+    np.testing.assert_allclose(stiff[6:], 12**-0.5)  # as far from the mean as one sigma
+    np.testing.assert_allclose(soft[6:], -(12**-0.5))
     assert blades.points(cube)[0, len(SHAPE) + UNIT] == 0.25
 
 

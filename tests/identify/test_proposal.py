@@ -14,7 +14,7 @@ from workflow.paper.printed import CONSISTENT, CRITICAL
 
 SPREAD = 0.2  # of the shifts over the unit cube
 # Blades whose shape does not matter, and which are equally stiff
-BLADES = Blades(sobol(32, len(SHAPE), 3), np.zeros(32))
+BLADES = Blades(sobol(32, len(SHAPE), 3), np.zeros(32), sobol(32, 2, 4))
 
 
 @pytest.fixture(autouse=True)

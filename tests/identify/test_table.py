@@ -95,7 +95,7 @@ def test_only_peaks_that_would_be_named_are_observed(seen):
     assert joined([seen] * 2).amplitude.shape == (4, 3, 2)
 
 
-def test_blocks_of_a_table_are_joined_and_nan_is_no_peak(seen, narrow):
+def test_blocks_of_a_table_are_joined_and_nan_is_no_peak(seen):
     """As of a file: null."""
     peaks = {name: np.where(np.isnan(each), None, each).tolist() for name, each in seen.items()}
     cube = of_prior(4, 1)
@@ -103,7 +103,7 @@ def test_blocks_of_a_table_are_joined_and_nan_is_no_peak(seen, narrow):
         {"sample": name, "data": None, "cube": at.tolist(), **peaks}
         for name, at in (("prior", cube[:2]), ("prior", cube[2:]), ("first", cube[:2]))
     )
-    blades = Blades.of([{"places": [0.5] * len(SHAPE), "stiffness": 1e6}], narrow)
+    blades = Blades(np.full((1, len(SHAPE)), 0.5), np.zeros(1), np.zeros((1, 2)))
     prior, later = tables([first, second, other], blades)
     np.testing.assert_array_equal(prior["cube"], cube)
     np.testing.assert_array_equal(prior["wear"], np.concatenate([seen["wear"]] * 2))

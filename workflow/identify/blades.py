@@ -8,6 +8,8 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TypedDict
 
+import numpy as np
+
 from fem.assemble import assemble
 from geometry.blade import Blade
 from geometry.mesh import build_mesh
@@ -26,6 +28,7 @@ STIFFENING = 1.6  # of a bar: dB / d(radius / span) in f1^2 = f1(0)^2 + B Omega^
 WANTED = ENGINE_ORDER**2 - CROSSING[ENGINE_ORDER] ** -2  # B of the paper's crossing
 CLOSE = 0.01  # of B: 1.5e-4 of the crossing
 TRIALS = 8  # hub radii; three do
+XI = np.linspace(LEADING, 1 - LEADING, 15)  # places of the tip
 TOP = 0.402  # highest speed of a model over f1(0): above the paper's 0.4
 
 
@@ -36,7 +39,9 @@ class BladeNumbers(TypedDict):
     shape: dict[str, float]
     hub_radius_mm: float
     max_speed_rad_s: float
-    stiffness: float  # of mode 1 at the tip, N/m
+    softness: float  # of mode 1 at the tip, m/N
+    others: float  # that of all other modes over it
+    leading: float  # motion of mode 1 at the leading edge over its root mean square along the chord
     rejected: int  # shapes before it that cannot be: no valid section or mesh, no such hub
 
 
@@ -67,8 +72,8 @@ def of_prior(
             "shape": shape,
             "hub_radius_mm": known(blade.sections, "sections").hub_radius_mm,
             "max_speed_rad_s": blade.max_speed_rad_s,
-            "stiffness": stiffness(model),
             "rejected": rejected,
+            **tip(model),
         }
     raise SettingsError("no shape of the prior can be", key=name)
 
@@ -122,7 +127,18 @@ def stiffening(rom: Rom) -> float:
     return float((rom.modes(Omega)[0][0] ** 2 - rom.omega1**2) / Omega**2)
 
 
-def stiffness(rom: Rom) -> float:
-    """Modal stiffness omega^2 / Phi^2 of mode 1 at xi = 1/16, radial, at the paper's crossing."""
+def tip(rom: Rom) -> dict[str, float]:
+    """What contact sees of a blade: `softness`, `others`, `leading` of ``BladeNumbers``.
+
+    Mean over the chord of the radial displacement under a unit force at the same place, by modes at
+    the paper's crossing; the motion at the leading edge is negative where it opposes the mean.
+    """
     omega, Phi = rom.modes(CROSSING[ENGINE_ORDER] * rom.omega1)
-    return float((omega[0] / (rom.rows([LEADING], "r") @ Phi[:, 0])[0]) ** 2)
+    u = rom.rows(XI, "r") @ Phi / omega
+    first, *others = (u**2).mean(axis=0)
+    leading = u[0, 0] * np.sign(u[:, 0].mean()) / np.sqrt(first)
+    return {
+        "softness": float(first),
+        "others": float(sum(others) / first),
+        "leading": float(leading),
+    }

@@ -15,6 +15,7 @@ from workflow.identify.blades import BladeNumbers
 from workflow.identify.priors import NAMES, SHAPE, Points, Priors, sobol
 
 UNIT = NAMES.index("unit_Pa") - len(SHAPE)  # of the parameters after the shape
+UNIFORM = 12**-0.5  # standard deviation over a unit interval
 
 type Values = dict[str, NDArray[np.float64]]  # (points,) of each parameter
 
@@ -32,13 +33,18 @@ class Blades:
 
     places: Points  # (blades, shape), in the unit cube
     softness: NDArray[np.float64]  # (blades,), of mode 1 at the tip, as a shift of the unit's place
+    tips: NDArray[np.float64]  # (blades, 2): other modes, and the leading edge in mode 1
 
     @classmethod
     def of(cls, blades: Sequence[BladeNumbers], priors: Priors) -> Self:
-        """The blades of their files."""
-        stiffness = np.log([blade["stiffness"] for blade in blades])
-        softness = (stiffness.mean() - stiffness) / priors.unit_Pa.width
-        return cls(np.array([blade["places"] for blade in blades]), softness)
+        """The blades of their files; numbers of the tips have the spread of a unit cube."""
+        softness, others = np.log([[blade["softness"], blade["others"]] for blade in blades]).T
+        tips = np.stack([others, [blade["leading"] for blade in blades]], axis=1)
+        return cls(
+            np.array([blade["places"] for blade in blades]),
+            (softness - softness.mean()) / priors.unit_Pa.width,
+            UNIFORM * (tips - tips.mean(axis=0)) / tips.std(axis=0),
+        )
 
     def number(self, cube: Points) -> NDArray[np.int64]:
         """Number (points,) of each point's blade."""
@@ -49,12 +55,10 @@ class Blades:
         return np.hstack([self.places[self.number(cube)], cube[:, 1:]])
 
     def features(self, cube: Points) -> Points:
-        """What an emulator is a function of (points, others): the unit over the stiffness.
-
-        The shape does no more to it than that.
-        """
-        features = cube[:, 1:].copy()
-        features[:, UNIT] += self.softness[self.number(cube)]
+        """What an emulator is a function of (points, features), the blade by what contact sees."""
+        number = self.number(cube)
+        features = np.hstack([cube[:, 1:], self.tips[number]])
+        features[:, UNIT] += self.softness[number]
         return features
 
 
