@@ -409,7 +409,6 @@ FIGURES = {
     ),
     "design": lambda get: designs.draw(get("design_rows")),
     "sensitivity": lambda get: designs.sensitivity(*read(designs, get("sobol_rows"))),
-    "states of the grid": lambda get: coatings.predictability(get("grid")),
     "stress": lambda get: stress.draw(*stressed(at_3133=at_one_side, at_5400=at_the_tip)),
     "trade": lambda get: trade.settings(get("study")),
     "features": lambda get: trade.changes(get("features")),
@@ -701,10 +700,6 @@ NUMBERS = {  # by figure and what is shown: the numbers that are drawn, and what
         lambda drawn: drawn.axes[0].images[0].get_array().filled(-1),
         [[1.2, 2, -1], [1, 0.5, 0.7]],
     ),
-    ("states of the grid", "share of runs that are not ok"): (
-        lambda drawn: drawn.axes[0].images[0].get_array(),
-        [[30, 0, 100], [10, 0, 0]],
-    ),
     ("fig16", "amplitude at the peak"): (
         lambda drawn: drawn.axes[0].collections[0].get_array().max(),
         1.0,
@@ -840,13 +835,6 @@ def words(axes):
 TEXTS = {  # of the cells of the grid: by rows, and which are bold
     "fig13": (["1.20", "2.00†", "-", "1.00", "(0.50)", "0.70*"], [(1, 0)]),
     "fig13-k6": (["0.40", "-", "-", "0.90", "0.30", "0.20"], [(0, 1)]),
-    "states of the grid": (
-        [
-            *("70 % ok\n4 ●   6 ●", "100 % ok\n4 ●   6 x", "0 % ok\n4 x   6 x"),
-            *("90 % ok\n4 ●   6 ●", "100 % ok\n4 ◇   6 ●", "100 % ok\n4 ●   6 ○"),
-        ],
-        [],
-    ),
 }
 
 
@@ -863,17 +851,17 @@ def test_a_grid_without_any_peak_is_drawn(grid):
 
 
 @pytest.mark.parametrize(
-    ("departure", "status", "state"),
+    ("departure", "status", "sensitive"),
     [
-        (0.02, "sensitive", "sensitive"),
-        (1e-6, "sensitive", "predictable"),  # the wear parts, the response does not
-        (None, "sensitive", "sensitive"),  # the twin ended otherwise
-        (None, "ok", "no twin was computed"),
+        (0.02, "sensitive", True),
+        (1e-6, "sensitive", False),  # the wear parts, the response does not
+        (None, "sensitive", True),  # the twin ended otherwise
+        (None, "ok", False),  # no twin was computed
     ],
 )
-def test_states_of_a_peak(departure, status, state):
+def test_peaks_that_cannot_be_predicted(departure, status, sensitive):
     peak = grid_peak(1.0, departure=departure, status=status)
-    assert coatings.state_of(peak) == state
+    assert coatings.is_sensitive(peak) is sensitive
 
 
 @pytest.mark.parametrize("status", ["sensitive", "unstable"])

@@ -1,6 +1,5 @@
-"""Peaks (Fig. 13) and their predictability over the moduli E and K of the liner."""
+"""Peaks over the moduli E and K of the liner, Fig. 13."""
 
-from collections import Counter
 from typing import Any
 
 import numpy as np
@@ -21,12 +20,6 @@ MARKS = (
     f"bold: largest amplitude;  {OF_PAPER}: largest in the paper;  in brackets: not predictable;\n"
     f"{RISE}: a sweep ends on the rise;  {NO_PEAK}: no run near a peak has a result"
 )
-STATES = {  # of a peak: its mark
-    "predictable": "\N{BLACK CIRCLE}",
-    "sensitive": "\N{WHITE DIAMOND}",
-    "no twin was computed": "\N{WHITE CIRCLE}",
-    "no run near it has a result": "x",
-}
 
 type Case = dict[str, Any]
 
@@ -71,51 +64,11 @@ def _text(case: Case, name: str, digits: int, order: int) -> str:
         return NO_PEAK
     is_worst_of_paper = order == ENGINE_ORDER and (case["E"], case["K"]) == tuple(WORST)
     marked = f"{peak[name]:.{digits}f}{RISE * peak['at_end']}{OF_PAPER * is_worst_of_paper}"
-    return f"({marked})" if state_of(peak) == "sensitive" else marked
+    return f"({marked})" if is_sensitive(peak) else marked
 
 
-@style.styled
-def predictability(grid: Case) -> Figure:
-    """Share of the runs that are ok, and below it the state of the peak of each engine order."""
-    cases = sorted(grid["cases"], key=lambda case: (-case["K"], case["E"]))
-    states = ", ".join(f"{mark} {state}" for state, mark in STATES.items())
-    orders = " and ".join(map(str, grid["orders"]))
-    said = f"share of runs that are not ok (%)\npeaks of EO {orders}: {states}"
-    drawn = cells.draw(
-        [case | _cell(case) for case in cases],
-        "E",
-        "K",
-        "not ok",
-        text="text",
-        labels=COATINGS | {"not ok": said},
-        limits=(0, 100),
-    )
-    drawn.axes[0].set_title(_totals(grid))
-    return drawn
-
-
-def state_of(peak: Case | None) -> str:
-    """State of a peak, a key of ``STATES``.
-
-    JSON has no inf: where run and twin end differently, the departure is None and the status is
-    `sensitive`.
-    """
-    if peak is None:
-        return "no run near it has a result"
+def is_sensitive(peak: Case) -> bool:
+    """Whether a peak cannot be predicted: run and twin differ, or end differently (inf: null)."""
     if peak["departure"] is None:
-        return "sensitive" if peak["status"] == "sensitive" else "no twin was computed"
-    return "sensitive" if peak["departure"] > SENSITIVE_FROM else "predictable"
-
-
-def _cell(case: Case) -> dict[str, Any]:
-    """Share of the runs in percent, and the peaks of a case."""
-    ok = 100 * case["statuses"].get("ok", 0) / case["runs"]
-    marks = (f"{order} {STATES[state_of(peak)]}" for order, peak in case["peaks"].items())
-    return {"not ok": 100 - ok, "text": f"{ok:.0f} % ok\n{'   '.join(marks)}"}
-
-
-def _totals(grid: Case) -> str:
-    """Number of runs by status, and which of them have twins."""
-    ends = sum((Counter(case["statuses"]) for case in grid["cases"]), Counter())
-    listed = ", ".join(f"{count:,} {status}" for status, count in ends.most_common())
-    return f"{ends.total():,} runs: {listed}; twins at the peaks alone"
+        return peak["status"] == "sensitive"
+    return peak["departure"] > SENSITIVE_FROM
