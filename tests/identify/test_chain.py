@@ -28,7 +28,7 @@ SCENES = {
     "e10": "identify-e10", "two_five": "identify-two-five", "grid": "identify-grid",
     "rigid": "identify-rigid",
 }  # fmt: skip
-TABLES = {"prior": (64, None), "first": (6, SHIFTS), "second": (6, WITH_ORDER)}
+TABLES = {"prior": (128, None), "first": (6, SHIFTS), "second": (6, WITH_ORDER)}
 NAMES, BLADES = {"prior": "narrow"}, 16
 
 
@@ -105,7 +105,7 @@ def test_all_fits_weigh_the_points_of_all_tables(chain):
     for of in FITS:
         shifts = found["fits"][of.name][SHIFTS]
         weights = np.array(shifts["weights"])
-        assert len(weights) == len(found["blade"]) == 76
+        assert len(weights) == len(found["blade"]) == 140
         assert weights.sum() == pytest.approx(1) or not weights.any()
         assert shifts["met"] >= found["fits"][of.name][WITH_ORDER]["met"] >= 0
         supported += weights.any()

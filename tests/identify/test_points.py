@@ -31,10 +31,12 @@ def test_features_have_the_unit_times_the_softness_of_the_blade(narrow):
     cube[1, 0] = 0.75
     soft, stiff = blades.features(cube)
     assert soft[UNIT] - stiff[UNIT] == pytest.approx(1 / np.log10(300))
-    others = np.arange(1, 6)
-    assert (soft[others] == stiff[others]).all() and UNIT == 0
-    np.testing.assert_allclose(stiff[6:], 12**-0.5)  # as far from the mean as one sigma
-    np.testing.assert_allclose(soft[6:], -(12**-0.5))
+    assert (soft[1:5] == stiff[1:5]).all() and UNIT == 0
+    np.testing.assert_allclose(stiff[5:7], 0.43)  # as far from the mean as one sigma
+    np.testing.assert_allclose(soft[5:7], -0.43)
+    np.testing.assert_allclose(soft[7:], 0.15 * 0.5)
+    without = np.delete(cube, 5, axis=1)  # the fifth harmonic
+    np.testing.assert_array_equal(blades.features(np.insert(without, 5, 0.9, axis=1))[0], soft)
     assert blades.points(cube)[0, len(SHAPE) + UNIT] == 0.25
 
 

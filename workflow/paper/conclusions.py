@@ -13,10 +13,10 @@ from workflow.paper.verdict import HOLDS
 NEARLY_ALL, HARDLY_ANY = 0.9, 0.1  # share of the draws
 
 INTRODUCTION = """\
-Claims of the paper by where they hold: on the reference blade with the scenes' values, on {other},
-and in the draws of the posterior that the scenes take, where casing, unit of E and damping vary as
-far as the paper's critical speeds and the order of its coatings allow ({draws} draws: a share of
-{share:.0f} % has a standard error of {error:.0f} %). Claims about model and method have no
+Claims of the paper by where they hold: on the scenes' blade with the scenes' values, on {other},
+and in the draws of the posterior that the scenes take, where blade, casing, unit of E and damping
+vary as far as the paper's critical speeds and the order of its coatings allow ({draws} draws: a
+share of {share:.0f} % has a standard error of {error:.0f} %). Claims about model and method have no
 draws."""
 DRAWN = {  # the error is that of the binomial
     "draws": DRAWS,
@@ -61,7 +61,7 @@ def text(claims: Sequence[Row], fits: Mapping[str, Any], long: Mapping[str, Any]
     Parameters
     ----------
     claims : rows of their table
-    fits : those of the reference blade
+    fits : those of the prior whose medoid the scenes take
     long : numbers of long times
     """
     others = named(claims, "other")
