@@ -16,8 +16,8 @@ from workflow.identify.priors import NAMES, SHAPE, Points, Priors, sobol
 
 # Of the parameters after the shape
 UNIT, FIFTH = (NAMES.index(name) - len(SHAPE) for name in ("unit_Pa", "fifth_over_second"))
-# Of the features, by cross-validation on the first table: spread of the numbers of the tips, where a
-# parameter has 0.29, and a factor on places of the shape
+# Of the features, by cross-validation on the first table: spread of the numbers of the tips (that
+# of a parameter is 0.29), and a factor on places of the shape
 SPREAD, OF_SHAPE = 0.43, 0.15
 
 type Values = dict[str, NDArray[np.float64]]  # (points,) of each parameter
