@@ -98,7 +98,7 @@ SIGMA = 1 / (SPREAD * np.hypot(0.31, 0.181) / 0.005)
 def fitted():
     """Three tables of different sizes and data."""
     each = tables()
-    for number, data in ((256, SHIFTS), (64, WITH_ORDER)):
+    for number, data in ((512, SHIFTS), (64, WITH_ORDER)):
         points = drawn(each, number, data)
         each.append(made(points, data=data))
     marched = every(each)
