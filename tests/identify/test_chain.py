@@ -16,7 +16,7 @@ from workflow.identify import measured, numbers, report, shares
 from workflow.identify.fits import prior_numbers
 from workflow.identify.likelihood import FITS, SHIFTS, WITH_ORDER
 from workflow.identify.measured import cases, scenes_at
-from workflow.identify.points import Blades, value_at
+from workflow.identify.points import Blades, parameters_at
 from workflow.identify.priors import SHAPE, sobol
 from workflow.identify.shares import JUDGED, verdicts
 from workflow.identify.steps import steps_per_round
@@ -163,7 +163,7 @@ def test_stiff_coatings_have_more_steps_at_draws():
 
 
 def test_scenes_at_a_point_have_its_parameters(chain):
-    values, base = value_at(chain.fits["values"], 0), short("identify")
+    values, base = parameters_at(chain.fits["values"], 0), short("identify")
     here = scenes_at({part: short(name) for part, name in SCENES.items()}, values, "narrow-1")
     assert here["e10"].liner.law.unit_Pa == values["unit_Pa"]
     assert (here["e10"].liner.law.E, here["e10"].liner.law.K) == (10.0, 4.55)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from workflow.identify.points import UNIT, Blades, of_prior, value_at
+from workflow.identify.points import UNIT, Blades, drawn_cube, parameters_at
 from workflow.identify.priors import NAMES, SHAPE
 
 
@@ -14,7 +14,7 @@ def blade(place, softness, others=1.0, leading=1.0):
 
 def test_each_blade_is_as_likely_and_has_its_own_shape(narrow):
     blades = Blades.of([blade(i / 4, 1e-6, i + 1, i) for i in range(4)], narrow)
-    cube = of_prior(64, 1)
+    cube = drawn_cube(64, 1)
     number, points = blades.number(cube), blades.points(cube)
     assert np.bincount(number).tolist() == [16] * 4
     assert points.shape == (64, len(NAMES))
@@ -42,4 +42,4 @@ def test_features_have_the_unit_times_the_softness_of_the_blade(narrow):
 
 def test_values_of_one_point():
     values = {"unit_Pa": [1e9, 2e9], "damping_ratio": np.array([0.01, 0.02])}
-    assert value_at(values, 1) == {"unit_Pa": 2e9, "damping_ratio": 0.02}
+    assert parameters_at(values, 1) == {"unit_Pa": 2e9, "damping_ratio": 0.02}

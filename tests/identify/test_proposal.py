@@ -6,7 +6,7 @@ from scipy.stats import norm
 
 from workflow.identify.fits import drawn as every, fit, posterior_of
 from workflow.identify.likelihood import SHIFTS, WITH_ORDER, Fit
-from workflow.identify.points import Blades, of_prior
+from workflow.identify.points import Blades, drawn_cube
 from workflow.identify.priors import SHAPE, sobol
 from workflow.identify.proposal import drawn, proposal, served
 from workflow.identify.table import COATINGS, ORDERS, placed
@@ -45,14 +45,14 @@ def made(cube, crossing_of_6=0.17, soft=(0.0, 0.0), data=None):
 
 def tables(data=SHIFTS, **shape):
     """A table of the prior and one that was proposed after it."""
-    prior = of_prior(128, 1)
+    prior = drawn_cube(128, 1)
     first = made(prior, **shape)
     points = drawn([first], 128, data)
     return [first, made(points, **shape, data=data)]
 
 
 def test_the_reading_that_fits_better_is_served():
-    points = of_prior(128, 1)
+    points = drawn_cube(128, 1)
 
     def of(crossing):
         return served(made(points, crossing))
@@ -76,7 +76,7 @@ def test_the_order_of_the_coatings_as_a_datum_moves_the_proposal():
 
 def test_a_K_far_from_the_data_is_not_served():
     """The other K alone then has the draws: twice as many are near its posterior."""
-    points, prior = of_prior(512, 5), of_prior(128, 1)
+    points, prior = drawn_cube(512, 5), drawn_cube(128, 1)
     centre = np.linalg.norm(points[:, 1:3] - 0.5, axis=1) < 0.05
 
     def density_at_centre(soft):
@@ -130,10 +130,10 @@ def test_a_fit_is_the_posterior_in_closed_form(fitted):
 
 
 def test_the_density_of_a_proposal_has_mean_one_and_equal_parts():
-    prior = of_prior(256, 1)
+    prior = drawn_cube(256, 1)
     soft = (0.02, -0.02)  # K = 0.45 is off in a way that no point can meet: less evidence
     first = made(prior, soft=soft)
-    among = of_prior(2**13, 9)
+    among = drawn_cube(2**13, 9)
     density = proposal([first], among, SHIFTS)
     assert density.mean() == pytest.approx(1, abs=0.1)
     alone = proposal([made(prior, soft=(0.3, -0.3))], among, SHIFTS)
@@ -150,7 +150,7 @@ def test_draws_are_those_of_the_served_fit():
 
 
 def test_a_fit_without_any_peak_has_no_range_and_no_draws():
-    prior = of_prior(8, 1)
+    prior = drawn_cube(8, 1)
     table = made(prior).assign(density=("point", np.full(8, 8.0)))
     marched = table.assign(over_crossing=np.nan * table["over_crossing"])
     of = fit(Fit(4.55, "printed"), marched, {"fourth_over_second": prior[:, 3]})

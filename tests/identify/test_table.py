@@ -9,7 +9,7 @@ import xarray as xr
 from simulate.scene import LEADING, Scene
 from workflow.identify import priors
 from workflow.identify.measured import at_point
-from workflow.identify.points import Blades, of_prior, value_at
+from workflow.identify.points import Blades, drawn_cube, parameters_at
 from workflow.identify.priors import NAMES, SHAPE, sobol
 from workflow.identify.steps import FIRM, MOST, STEPS, with_steps
 from workflow.identify.table import COATINGS, coated, joined, observed, tables
@@ -27,7 +27,7 @@ def values(narrow):
 def scenes(values):
     """Scenes of the rows of these points."""
     base = Scene.load(SCENES / "identify.yaml")
-    return [row for i in range(8) for row in coated(at_point(base, value_at(values, i)))]
+    return [row for i in range(8) for row in coated(at_point(base, parameters_at(values, i)))]
 
 
 def test_every_point_has_a_row_for_each_coating(scenes):
@@ -98,7 +98,7 @@ def test_only_peaks_that_would_be_named_are_observed(seen):
 def test_blocks_of_a_table_are_joined_and_nan_is_no_peak(seen):
     """As of a file: null."""
     peaks = {name: np.where(np.isnan(each), None, each).tolist() for name, each in seen.items()}
-    cube = of_prior(4, 1)
+    cube = drawn_cube(4, 1)
     first, second, other = (
         {"sample": name, "data": None, "cube": at.tolist(), **peaks}
         for name, at in (("prior", cube[:2]), ("prior", cube[2:]), ("first", cube[:2]))

@@ -10,7 +10,7 @@ from workflow.identify.blades import BladeNumbers
 from workflow.identify.fits import K_TAKEN, drawn, fit, posterior_of, prior_numbers
 from workflow.identify.likelihood import FITS
 from workflow.identify.measured import cases, scenes_at
-from workflow.identify.points import Blades, TablePoints, of_prior, value_at
+from workflow.identify.points import Blades, TablePoints, drawn_cube, parameters_at
 from workflow.identify.priors import Priors
 from workflow.identify.proposal import SEED, drawn as proposed, served
 from workflow.identify.table import TableRows, tables
@@ -26,7 +26,7 @@ def table(
 ) -> TablePoints:
     """Points of a table: of the prior, or drawn by ``data`` from the tables before it."""
     before = tables(rows, Blades.of(blades, priors))
-    new = of_prior(number, SEED) if data is None else proposed(before, number, data)
+    new = drawn_cube(number, SEED) if data is None else proposed(before, number, data)
     return {"data": data, "cube": new.tolist()}
 
 
@@ -63,7 +63,9 @@ def at_draws(
         for i in dict.fromkeys(points)  # a point may be drawn twice
         for row in cases(
             str(i),
-            scenes_at(scenes, value_at(fits["values"], i), f"{names['prior']}-{fits['blade'][i]}"),
+            scenes_at(
+                scenes, parameters_at(fits["values"], i), f"{names['prior']}-{fits['blade'][i]}"
+            ),
             K_TAKEN,
         )
     ]

@@ -68,11 +68,11 @@ class Blades:
         return np.hstack([others, self.tips[number], OF_SHAPE * self.places[number]])
 
 
-def of_prior(number: int, seed: int) -> Points:
+def drawn_cube(number: int, seed: int) -> Points:
     """Rows of the cube, drawn by the prior."""
     return sobol(number, 1 + len(NAMES) - len(SHAPE), seed)
 
 
-def value_at(values: Mapping[str, Sequence[float]] | Values, point: int) -> dict[str, float]:
+def parameters_at(values: Mapping[str, Sequence[float]] | Values, point: int) -> dict[str, float]:
     """The parameters of one point."""
     return {name: float(samples[point]) for name, samples in values.items()}

@@ -14,7 +14,7 @@ from scipy.interpolate import RBFInterpolator
 from scipy.stats import chi2
 
 from workflow.identify.likelihood import FITS, FOUR_SHIFTS, WITH_ORDER
-from workflow.identify.points import of_prior
+from workflow.identify.points import drawn_cube
 from workflow.identify.posterior import systematic
 from workflow.identify.priors import Points
 from workflow.identify.table import joined
@@ -50,7 +50,7 @@ def served(prior: xr.Dataset) -> str:
 
 def candidates(tables: Sequence[xr.Dataset]) -> Points:
     """Rows of the cube from which those of the table after ``tables`` are drawn."""
-    return of_prior(CANDIDATES, SEED + len(tables))
+    return drawn_cube(CANDIDATES, SEED + len(tables))
 
 
 def drawn(tables: Sequence[xr.Dataset], number: int, data: str) -> Points:

@@ -14,7 +14,7 @@ from simulate.scene.design import Design
 from simulate.sweeps.design_runs import Engine, march_block, row_table
 from workflow.identify.blades import BladeNumbers
 from workflow.identify.measured import at_point
-from workflow.identify.points import Blades, TablePoints, value_at
+from workflow.identify.points import Blades, TablePoints, parameters_at
 from workflow.identify.priors import Priors
 from workflow.identify.steps import with_steps
 
@@ -50,13 +50,13 @@ def march(
 
     ``scene``: of all points; ``folder``: of the rows that are done.
     """
-    cube, of_prior = np.array(table["cube"]), Blades.of(blades, priors)
-    numbers, values = of_prior.number(cube), priors.values(of_prior.points(cube))
+    cube, all_blades = np.array(table["cube"]), Blades.of(blades, priors)
+    numbers, values = all_blades.number(cube), priors.values(all_blades.points(cube))
     parts, order = [], []
     for number in np.unique(numbers)[int(names["block"]) :: blocks]:
         points = np.flatnonzero(numbers == number)
         base = scene.but(blade=f"{names['prior']}-{number}")
-        rows = [row for i in points for row in coated(at_point(base, value_at(values, i)))]
+        rows = [row for i in points for row in coated(at_point(base, parameters_at(values, i)))]
         engine = Engine.of(Design(Path(base.blade), base, [], rows), Rom.load(roms[number]))
         parts.append(observed(row_table(engine, march_block(engine, folder, report=tell))))
         order += points.tolist()

@@ -228,7 +228,7 @@ def _ranks(modulus: Sequence[float], lines: NDArray[np.float64]) -> list[float]:
 
 
 def main_peak(runs: xr.Dataset, rom: Rom) -> Numbers | None:
-    """The EO 4 peak of the bare casing."""
+    """The EO 4 peak of a sweep: of the bare casing, of a tilted tip."""
     return peak(runs, rom, 4)
 
 
