@@ -85,7 +85,7 @@ def test_a_shape_that_cannot_be_is_passed_over(base, priors, tmp_path, monkeypat
     assert numbers["rejected"] == 1 and numbers["places"] == [0.5] * len(SHAPE)
     monkeypatch.setattr(blades, "sobol", lambda *_: places[:1])
     error = refused(SettingsError, of_prior, priors, base, names, 1, str(tmp_path / "rom-r.nc"))
-    assert error.key == "narrow-0"
+    assert error.key == "narrow-0" and "thickness" in str(error)
 
 
 def test_a_blade_whose_hub_would_be_out_of_range_is_refused(base, monkeypatch):

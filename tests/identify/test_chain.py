@@ -13,8 +13,8 @@ from simulate.errors.resolution import check_resolution
 from simulate.marching import SceneError, prepare
 from simulate.scene import LEADING, Scene
 from workflow.identify import measured, numbers, report, shares
-from workflow.identify.fits import prior_numbers
-from workflow.identify.likelihood import FITS, SHIFTS, WITH_ORDER
+from workflow.identify.fits import K_TAKEN, prior_numbers
+from workflow.identify.likelihood import FITS, SHIFTS, WITH_ORDER, Fit
 from workflow.identify.measured import cases, scenes_at
 from workflow.identify.points import Blades, parameters_at
 from workflow.identify.priors import SHAPE, sobol
@@ -141,10 +141,11 @@ def test_the_claims_are_judged_at_the_scene_of_each_draw(chain, monkeypatch):
         monkeypatch.setattr(module, "K", (0.45, 4.55, 45.45))
     monkeypatch.chdir(chain.folder)
     parts = {part: short(name).model_dump(mode="json") for part, name in SCENES.items()}
-    fits = chain.fits | {"fits": {of.name: {WITH_ORDER: {"draws": [0, 7, 50]}} for of in FITS}}
+    taken = {WITH_ORDER: {"medoid": 50, "draws": [7, 0, 50]}}
+    fits = chain.fits | {"fits": {of.name: taken for of in FITS}}
     drawn = numbers.at_draws(fits, parts, NAMES | {"block": "0"}, 2, "measured")
-    assert [draw["point"] for draw in drawn] == [0, 50]
-    for draw in drawn:
+    assert [*drawn] == ["50", "0"]
+    for draw in drawn.values():
         assert {"e1", "e10", "two_five"} <= {*draw}
         assert set(verdicts(draw)) == set(JUDGED)
     # Of each draw: E = 1, E = 10, the other casing, the table, the bare casing
@@ -201,14 +202,22 @@ def peaks(**of):
 def draw(ratio, deeper):
     """A draw: E = 10 over E = 1 in the peak and in the wear at k = 4; nothing else is known."""
     stiff = peaks(amplitude=ratio, deepest_wear=0.5 * deeper, largest=1.0)
-    return {"point": 0, "e1": peaks(largest=1.0), "e10": stiff}
+    return {"e1": peaks(largest=1.0), "e10": stiff}
 
 
 def test_shares_count_what_holds_and_what_holds_together():
-    of = shares.numbers([[draw(2, 2), draw(2, 0.5)], [draw(2, 0.5), draw(0.5, 0.5)]])
-    assert of["draws"] == 4 and of["most at once"] == 2
+    """Of the medoid, and of four draws of three points."""
+    taken = {"medoid": 2, "draws": [5, 6, 6, 7], "effective": 3.0}
+    fits = {"served": "printed", "fits": {Fit(K_TAKEN, "printed").name: {WITH_ORDER: taken}}}
+    measured = [{"2": draw(2, 2), "5": draw(2, 2)}, {"6": draw(2, 0.5), "7": draw(0.5, 0.5)}]
+    of = shares.numbers(fits, measured)
+    assert of["draws"] == 4 and of["most at once"] == 2 and of["effective"] == 3
+    assert (of["medoid"]["C16"], of["medoid"]["C25"]) == ("calibrated", "not judged")
     assert {"C12": 0.75, "C16": 0.25, "C20": 0}.items() <= of["holds"].items()
     assert of["together"]["C16"]["C12"] == 1 and of["together"]["C12"]["C16"] == 1 / 3
     assert np.isnan(of["together"]["C20"]["C12"])
     assert of["not judged"]["C25"] == 1 and of["not judged"]["C12"] == 0
-    assert shares.numbers([[], []]) == {}  # of too few effective points
+    said = report.shares(of)
+    assert (
+        "| C16 |" in said and "25 %" in said and "effective size of what is drawn from: 3" in said
+    )

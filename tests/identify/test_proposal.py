@@ -2,8 +2,10 @@
 
 import numpy as np
 import pytest
+from refused import refused
 from scipy.stats import norm
 
+from geometry.project import SettingsError
 from workflow.identify.fits import drawn as every, fit, posterior_of
 from workflow.identify.likelihood import SHIFTS, WITH_ORDER, Fit
 from workflow.identify.points import Blades, drawn_cube
@@ -141,12 +143,15 @@ def test_the_density_of_a_proposal_has_mean_one_and_equal_parts():
     assert density[centre].mean() < 0.9 * alone[centre].mean()
 
 
-def test_draws_are_those_of_the_served_fit():
+def test_medoid_and_draws_are_those_of_the_served_fit():
+    taken = {"medoid": 4, "draws": [4]}
     fits = {
         "served": "consistent",
-        "fits": {"K = 4.55, consistent": {SHIFTS: {"draws": [3]}, WITH_ORDER: {"draws": [4]}}},
+        "fits": {"K = 4.55, consistent": {SHIFTS: {"draws": [3]}, WITH_ORDER: taken}},
     }
     assert posterior_of(fits)["draws"] == [4]
+    taken["medoid"] = None
+    assert refused(SettingsError, posterior_of, fits).key == "TABLES"
 
 
 def test_a_fit_without_any_peak_has_no_range_and_no_draws():

@@ -55,16 +55,17 @@ def of_prior(
     Raises
     ------
     geometry.project.errors.SettingsError
-        When none can be.
+        When none can be; it says why not the last.
     """
-    name = f"{names['prior']}-{names['number']}"
+    name, refused = f"{names['prior']}-{names['number']}", ""
     for rejected, places in enumerate(
         sobol(SHAPES, len(SHAPE), SEED)[int(names["number"]) :: blades]
     ):
         shape = {key: float(value[0]) for key, value in priors.values(places[None], SHAPE).items()}
         try:
             blade, model = at_crossing(of_shape(base, shape), name)
-        except (SettingsError, MeshError):
+        except (SettingsError, MeshError) as error:
+            refused = str(error)
             continue
         model.save(rom)
         return {
@@ -75,7 +76,7 @@ def of_prior(
             "rejected": rejected,
             **tip(model),
         }
-    raise SettingsError("no shape of the prior can be", key=name)
+    raise SettingsError(f"no shape of the prior can be; the last: {refused}", key=name)
 
 
 def of_shape(base: Blade, shape: Mapping[str, float]) -> Blade:

@@ -7,6 +7,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from geometry.project import SettingsError
 from workflow.identify.likelihood import SHIFTS, WITH_ORDER, Fit
 from workflow.identify.points import Values
 from workflow.identify.posterior import Weighted, medoid, systematic, weighted
@@ -15,7 +16,7 @@ from workflow.identify.proposal import proposal
 from workflow.identify.table import joined
 
 LEVELS = (0.05, 0.5, 0.95)  # quantiles of the parameters
-ENOUGH = 200  # effective size from which a fit's ranges and draws are used
+ENOUGH = 200  # effective size from which a fit's ranges are used
 DRAWS, SEED = 100, 3  # of a distribution, for the claims at its points
 K_TAKEN = 4.55  # of the coating with E = 1, in the fit whose medoid the scenes of the paper take
 TWO_NEAREST = -0.25  # `fourth_over_second`: below, the casing is nearest at four places, not two
@@ -81,7 +82,7 @@ def _posterior(
     sample: Weighted, points: Points, values: Values, agrees: NDArray[np.bool_]
 ) -> dict[str, Any]:
     """Numbers of a posterior; its medoid is one of the points whose EO 4 peaks agree."""
-    supported, ranges, draws = agrees & (sample.weights > 0), None, []
+    supported, ranges, rng = agrees & (sample.weights > 0), None, np.random.default_rng(SEED)
     if sample.effective >= ENOUGH:
         ranges = {
             name: np.quantile(
@@ -89,7 +90,6 @@ def _posterior(
             ).tolist()
             for name, samples in values.items()
         }
-        draws = systematic(sample.weights, DRAWS, np.random.default_rng(SEED)).tolist()
     return {
         "effective": sample.effective,
         "evidence": sample.evidence,
@@ -97,7 +97,7 @@ def _posterior(
         "ranges": ranges,
         "four_places": float((values["fourth_over_second"] < TWO_NEAREST) @ sample.weights),
         "medoid": medoid(points, sample.weights, supported) if supported.any() else None,
-        "draws": draws,
+        "draws": systematic(sample.weights, DRAWS, rng).tolist() if sample.evidence else [],
     }
 
 
@@ -107,5 +107,18 @@ def of_fit(fits: Mapping[str, Any], K: float, reading: str | None = None) -> dic
 
 
 def posterior_of(fits: Mapping[str, Any]) -> dict[str, Any]:
-    """That with C12 and C16, by the reading that was served, whose medoid and draws are used."""
-    return of_fit(fits, K_TAKEN)[WITH_ORDER]
+    """That with C12 and C16, by the reading that was served, whose medoid and draws are used.
+
+    Raises
+    ------
+    geometry.project.errors.SettingsError
+        When no point has the data.
+    """
+    posterior = of_fit(fits, K_TAKEN)[WITH_ORDER]
+    if posterior["medoid"] is None:
+        raise SettingsError(
+            "no point has C12, C16 and the paper's peaks of EO 4: add tables",
+            file="workflow/rules/functions.smk",
+            key="TABLES",
+        )
+    return posterior

@@ -22,7 +22,7 @@ def table(
     blades: list[BladeNumbers],
     priors: Priors,
     number: int,
-    data: str | None,
+    data: str | None = None,
 ) -> TablePoints:
     """Points of a table: of the prior, or drawn by ``data`` from the tables before it."""
     before = tables(rows, Blades.of(blades, priors))
@@ -51,16 +51,18 @@ def at_draws(
     blocks: int,
     folder: str,
     tell: Say = silent,
-) -> list[dict[str, Any]]:
-    """Numbers at every ``blocks``-th of the draws that are judged, from that of the block on.
+) -> dict[str, dict[str, Any]]:
+    """Numbers at every ``blocks``-th of the points that are judged, from that of the block on.
 
-    ``parts``: scenes of the claims, by part; ``folder``: of the rows that are done.
+    These are the medoid and the draws. ``parts``: scenes of the claims, by part; ``folder``: of the
+    rows that are done.
     """
     scenes = {part: Scene.model_validate(given) for part, given in parts.items()}
-    points = posterior_of(fits)["draws"][int(names["block"]) :: blocks]
+    posterior = posterior_of(fits)
+    points = [*dict.fromkeys([posterior["medoid"], *posterior["draws"]])]
     rows = [
         row
-        for i in dict.fromkeys(points)  # a point may be drawn twice
+        for i in points[int(names["block"]) :: blocks]
         for row in cases(
             str(i),
             scenes_at(
@@ -70,5 +72,4 @@ def at_draws(
         )
     ]
     done = march_block(rows, folder, tell=tell)
-    by_point = numbers_of(done, growth_of(done))
-    return [{"point": i} | by_point[str(i)] for i in points]
+    return numbers_of(done, growth_of(done))

@@ -125,18 +125,20 @@ def _range(distribution: Mapping[str, Any], name: str) -> str:
 
 
 def shares(numbers: Mapping[str, Any]) -> str:
-    """Share of the draws of the posterior at which each claim holds."""
+    """Verdict of each claim at the medoid, and the share of the draws at which it holds."""
     says = {claim.id: claim.says for claim in CLAIMS}
     rows = [
         {
             "": claim,
             "the paper says": says[claim],
+            "at the medoid": numbers["medoid"][claim],
             f"holds in {numbers['draws']} draws": _share(numbers, claim),
         }
         for claim in JUDGED
     ]
     most = f"most of these {len(JUDGED)} at one draw: {numbers['most at once']}"
-    return f"{records(rows)}\n\n{most.capitalize()}."
+    size = f"effective size of what is drawn from: {numbers['effective']:.0f}"
+    return f"{records(rows)}\n\n{most.capitalize()}; {size}."
 
 
 def _share(shares: Mapping[str, Any], claim: str) -> str:

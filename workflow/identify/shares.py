@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from workflow.identify.fits import posterior_of
 from workflow.paper.claims import CLAIMS
 from workflow.paper.verdict import HOLDS, judge
 
@@ -16,18 +17,23 @@ JUDGED = ("C12", "C13", "C14", "C15", "C16", "C17", "C18", "C19", "C20", "C25", 
 type Verdicts = Mapping[str, str]  # by claim
 
 
-def numbers(measured: list[list[dict[str, Any]]]) -> dict[str, Any]:
-    """Shares of the draws at which the claims hold; ``measured``: numbers at draws, of a job each.
+def numbers(fits: Mapping[str, Any], measured: list[dict[str, Any]]) -> dict[str, Any]:
+    """Verdicts at the medoid of the posterior, and shares of its draws at which the claims hold.
 
-    Empty without draws: of a posterior of too few effective points.
+    ``measured``: numbers at points, of a job each.
     """
-    draws = [draw for block in measured for draw in block]
-    return shares([verdicts(draw) for draw in draws]) if draws else {}
+    at_points = {point: verdicts(at) for block in measured for point, at in block.items()}
+    posterior = posterior_of(fits)
+    return {
+        "effective": posterior["effective"],
+        "medoid": at_points[str(posterior["medoid"])],
+        **shares([at_points[str(point)] for point in posterior["draws"]]),
+    }
 
 
-def verdicts(draw: Mapping[str, Any]) -> Verdicts:
-    """Verdict of each claim on the numbers of one draw."""
-    return {claim.id: judge(claim, draw, {})["verdict"] for claim in CLAIMS if claim.id in JUDGED}
+def verdicts(at: Mapping[str, Any]) -> Verdicts:
+    """Verdict of each claim on the numbers at one point."""
+    return {claim.id: judge(claim, at, {})["verdict"] for claim in CLAIMS if claim.id in JUDGED}
 
 
 def shares(verdicts: Sequence[Verdicts]) -> dict[str, Any]:

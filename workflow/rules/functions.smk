@@ -233,6 +233,14 @@ CLAIM_SCENES = {
 }
 
 
+def settings_of_prior(wildcards):
+    """All ranges, those of its base among them."""
+    from workflow.identify.priors import Priors
+
+    path = own_files([f"workflow/identify/{wildcards.prior}.yaml"])[0]
+    return read_or_fail(Priors.load, path).model_dump(mode="json")
+
+
 def base_of_priors(wildcards):
     """The blade whose shape is drawn."""
     return blade_settings("identified").model_dump(mode="json", exclude_unset=True)
@@ -289,8 +297,12 @@ def rows_before(wildcards):
 
 
 def points_of_table(wildcards):
-    """Number of the points of a table, and the data by which they are drawn."""
-    return dict(zip(("number", "data"), TABLES[wildcards.sample]))
+    return TABLES[wildcards.sample][0]
+
+
+def data_of_table(wildcards):
+    """The data by which its points are drawn."""
+    return TABLES[wildcards.sample][1]
 
 
 def given_draws(wildcards):
