@@ -24,7 +24,7 @@ from workflow.markdown import change, table, two_digits
 from workflow.paper import long, report
 from workflow.paper.claims import COATING
 from workflow.paper.printed import SHIFTS
-from workflow.study import bases, interface, mesh, rotor37, scaling, stability, trade_table
+from workflow.study import bases, interface, mesh, rotor37, scaling, stability, stages, trade_table
 from workflow.summary import PeakRow, about, crossings_and_ends, over_gap, terminal
 
 FOLDERS = ("geometry", "fem", "rom", "simulate", "workflow", "profiles", "tests")
@@ -163,11 +163,10 @@ COMPUTED = (
     ("levels", TRADE, trade_table.by_level),
     ("converges", "results/interface/interface.json", interface.results),
     ("nodes", "results/interface/interface.json", interface.all_nodes),
-    ("interfaces", TRADE, trade_table.interfaces),
     ("requirements", TRADE, trade_table.requirements),
     ("rounds", TRADE, trade_table.fewer_rounds),
     ("speeds", TRADE, trade_table.fewer_speeds),
-    ("schemes", TRADE, trade_table.schemes),
+    ("stages", "results/experiments/trade/stages.json", stages.table),
     ("bars", "results/experiments/bars/table.md", str),
     ("limits", "results/figures/stability-map.json", stability.limits),
     ("extremes", "results/figures/stability-matrix.json", stability.extremes),
@@ -181,8 +180,7 @@ SETTINGS = {"blade": Blade, "given": GivenMatrices, "scene": Scene}  # block: mo
 # kept beside the captions, for the pages
 PICTURES = (
     "reference/paper-e1/rub-0.350.png",
-    "trade/trade.png",
-    "trade/steps.png",
+    "trade/stages.png",
     "scaling/scaling.png",
 )
 BLOCK = re.compile(

@@ -104,6 +104,11 @@ def source_of_blade(wildcards):
     return blade_source(wildcards).get("source")
 
 
+def before_stages(wildcards):
+    """Those of an earlier version, by tests/benchmarks/before.py."""
+    return own_files(["tests/benchmarks/before.json"])[0]
+
+
 def scene_of_stability(wildcards):
     return SCENES["hand-e1"].model_dump(mode="json")
 

@@ -15,7 +15,7 @@ STUDIES = {
     ],
     "trade": [
         "results/experiments/trade/table.md",
-        *(f"results/{name}.png" for name in FIGURES.rows if name.startswith("trade/")),
+        *pictures(["trade/stages"]),
     ],
     "scaling": ["results/scaling/scaling.png", "results/scaling/scaling.json"],
 }

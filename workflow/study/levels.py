@@ -1,6 +1,6 @@
-"""Pareto front of error and time of each scene, and the cheapest setting for each level."""
+"""Error and CPU time of settings on all scenes, and the cheapest one for each level."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from math import inf
 from typing import Any
 
@@ -37,6 +37,14 @@ def group_rows(rows: Sequence[ExperimentRow], *groups: str) -> pd.DataFrame:
     return frame.join(errors_by_name)[frame["scene"].isin(SCENES) & errors.notna()]
 
 
+def scheme_of(settings: Mapping[str, Any]) -> str:
+    """Scheme of a scene: `piecewise-exact`, `central`, or `mass-scaled` central differences."""
+    integrator = settings["integrator"]
+    if integrator["scheme"] != "central-difference":
+        return integrator["scheme"]
+    return "central" if integrator.get("mass_scaling_hz") is None else "mass-scaled"
+
+
 def uncertainty(rows: Sequence[ExperimentRow]) -> pd.DataFrame:
     """Uncertainty of the reference by scene: change by one level coarser or another scheme.
 
@@ -46,14 +54,6 @@ def uncertainty(rows: Sequence[ExperimentRow]) -> pd.DataFrame:
     changes = runs[runs["row"].isin([COARSER, OTHER_SCHEME])].groupby("scene")[OBSERVABLES].max()
     worst = changes[JUDGED].max(axis=1, skipna=False)
     return changes.assign(worst=worst).reindex(SCENES).fillna({"worst": inf})
-
-
-def front(rows: Sequence[ExperimentRow], scene: str) -> pd.DataFrame:
-    """The Pareto-optimal rows of a scene: no other has less cost and less error."""
-    tried = group_rows(rows, "front")
-    of_scene = tried[tried["scene"] == scene].sort_values(["cpu_s", "worst"])
-    least = of_scene["worst"].cummin().shift(fill_value=inf)  # of all with less cost
-    return of_scene[of_scene["worst"] < least]
 
 
 def levels(rows: Sequence[ExperimentRow]) -> Iterator[dict[str, Any]]:

@@ -9,10 +9,7 @@ import pandas as pd
 from workflow.experiment.row import ExperimentRow
 from workflow.markdown import cell, percent, table
 from workflow.study.levels import (
-    JUDGED,
-    LEVELS,
     OBSERVABLES,
-    OTHER_SCHEME,
     SCENES,
     group_rows,
     levels,
@@ -21,7 +18,6 @@ from workflow.study.levels import (
 
 FLOOR = "uncertainty of the reference"
 COUNTED = "lobes"  # given as a number, all others in per cent
-SCHEMES = ("piecewise-exact", "central", "mass-scaled")
 HEADS = [name.replace("_", " ") for name in OBSERVABLES]
 
 
@@ -45,43 +41,6 @@ def by_level(rows: Sequence[ExperimentRow]) -> str:
         ["level", "settings", *HEADS, f"ms per run: {', '.join(SCENES)}", "paper, CPU min"],
         [*lines, [FLOOR, "", *floor, "", ""]],
     )
-
-
-def schemes(rows: Sequence[ExperimentRow]) -> str:
-    """CPU time (ms) of the cheapest run of each scheme that meets each level, by scene and error.
-
-    Runs differ from their reference in scheme and step alone; those without a result meet none. The
-    difference of two schemes at fine steps is the uncertainty.
-    """
-    columns = [(name, allowed) for allowed in LEVELS.values() for name in SCHEMES]
-    tried, lines = group_rows(rows, "scheme"), []
-    tried = tried.assign(kind=tried["settings"].map(scheme_of))
-    for scene in SCENES:
-        runs = tried[tried["scene"] == scene]
-        for observable in JUDGED:
-            times = [
-                runs.loc[(runs["kind"] == name) & (runs[observable] < allowed), "cpu_s"].min()
-                for name, allowed in columns
-            ]
-            unknown = runs.loc[runs["row"] == OTHER_SCHEME, observable]
-            lines.append([scene, observable, *map(_ms, times), *unknown.map(percent)])
-    heads = [f"{name} {allowed:.0%}" for name, allowed in columns]
-    return table(["scene", "error of", *heads, "uncertainty"], lines)
-
-
-def scheme_of(settings: Mapping[str, Any]) -> str:
-    """Scheme of a scene: `piecewise-exact`, `central`, or `mass-scaled` central differences."""
-    integrator = settings["integrator"]
-    if integrator["scheme"] != "central-difference":
-        return integrator["scheme"]
-    return "central" if integrator.get("mass_scaling_hz") is None else "mass-scaled"
-
-
-def interfaces(rows: Sequence[ExperimentRow]) -> str:
-    """Errors of patches and strips, of natural modes and of the mesh, each against its finest."""
-    runs = group_rows(rows, "interface", "modes", "mesh").sort_values("scene", kind="stable")
-    lines = [[row["row"], row["scene"], *_cells(row)] for row in runs.to_dict("records")]
-    return table(["model", "scene", *HEADS], lines)
 
 
 def requirements(rows: Sequence[ExperimentRow]) -> str:
