@@ -8,6 +8,7 @@ LEAST = 1e-4  # smaller uncertainties and changes, relative, count as equal
 NOT_KNOWN = "(no ±)"  # without any uncertainty
 DIGITS = 3  # of a value without an uncertainty
 MOST = 5  # of one with it: to ``LEAST`` of itself
+WIDTH = 124  # of the lines of a page
 
 
 def table(head: Sequence[object], rows: Iterable[Iterable[object]]) -> str:

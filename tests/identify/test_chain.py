@@ -1,6 +1,5 @@
 """From the prior to shares of the claims, on a coarse blade with short runs."""
 
-import re
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -13,7 +12,7 @@ from simulate.errors.resolution import check_resolution
 from simulate.marching import SceneError, prepare
 from simulate.scene import LEADING, Scene
 from workflow.identify import measured, numbers, report, shares
-from workflow.identify.fits import K_TAKEN, prior_numbers
+from workflow.identify.fits import K_TAKEN
 from workflow.identify.likelihood import FITS, SHIFTS, WITH_ORDER, Fit
 from workflow.identify.measured import cases, scenes_at
 from workflow.identify.points import Blades, parameters_at
@@ -111,27 +110,6 @@ def test_all_fits_weigh_the_points_of_all_tables(chain):
         supported += weights.any()
         assert 0 <= shifts["blades"] <= BLADES and bool(shifts["blades"]) == bool(weights.any())
     assert supported > 0
-
-
-def test_the_answer_tells_what_meets_the_shifts_and_which_K_they_prefer(narrow):
-    """Its numbers in their order: settings that meet them, ratios of evidence, factors."""
-
-    def fit(deviations, evidence, both, met, low, high, size):
-        ranges = {"unit_Pa": [low, 1.0, high], "casing_gaps": [low, 1.0, high / 2]}
-        shifts = {"evidence": evidence, "met": met, "weights": [0.5, 0.5]}
-        order = {"evidence": both, "met": met // 2, "ranges": ranges, "effective": size}
-        return {SHIFTS: shifts, WITH_ORDER: order, "best": {"deviations": deviations}}
-
-    loose = fit([0.5, -0.2], 0.4, 0.01, 2, 1, 2, 30)
-    taken = fit([-1.3, 0.1], 0.2, 0.04, 0, 0.5, 4, 250)
-    fits = {of.name: taken if of.K == 4.55 else loose for of in FITS}
-    text = report.answer({"fits": fits, "prior": prior_numbers(narrow)}).replace("\n", " ")
-    told = (
-        "Of 2 settings", ", 2 with K = 0.45", "(1 of these", ", 0 with K = 4.55", "is 1.3 half",
-        ", and 2 ", "K = 0.45 by 2.0 to 1", "K = 4.55 is preferred by 4.0 to 1", "30 and 250",
-        "take 4.55", "factor of 4 (assumed: 3.5)", "by 8 (170)",
-    )  # fmt: skip
-    assert re.search(".*".join(map(re.escape, told)), text)
 
 
 def test_the_claims_are_judged_at_the_scene_of_each_draw(chain, monkeypatch):

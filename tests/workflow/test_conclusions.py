@@ -21,7 +21,9 @@ FOUND = {
     "served": "printed",
     "prior": prior_numbers(Priors.load(ROOT / "workflow/identify/narrow.yaml")),
     "fits": {
-        Fit(K_OF_E1[1], "printed").name: {WITH_ORDER: {"ranges": RANGES, "four_places": 0.75}}
+        Fit(K_OF_E1[1], "printed").name: {
+            WITH_ORDER: {"medoid": 0, "ranges": RANGES, "four_places": 0.75}
+        }
     },
 }
 LONG = {

@@ -27,6 +27,7 @@ from workflow.readme import (
     read_pages,
     require_blocks,
     settings_table,
+    verdicts,
 )
 
 TEXTS = read_pages(ROOT)
@@ -129,6 +130,16 @@ def test_pages_without_results_keep_their_numbers_and_have_the_settings_of_the_m
 def test_numbers_that_are_kept_with_the_tests_are_those_of_the_page(name):
     ((file, table_of),) = [(file, of) for block, file, of in COMPUTED if block == name]
     assert any(table_of(read_json(ROOT / file)) in text for text in TEXTS.values())
+
+
+def test_the_paragraph_on_the_paper_counts_claims_and_names_those_that_differ():
+    """Of 10 on the model 9 hold; of 7 others 2 were data, 4 hold, and one differs."""
+    given = [*["reproduced"] * 9, "not comparable", *["calibrated"] * 2, "differs"]
+    given += ["reproduced in kind"] * 4
+    judged = [{"verdict": verdict, "says": f"claim {i}"} for i, verdict in enumerate(given)]
+    said = verdicts(judged).replace("\n", " ")
+    assert re.findall(r"\d+", said) == ["10", "9", "7", "2", "5", "4", "12"]
+    assert said.count(". ") == 2 and said.endswith('"claim 12".')
 
 
 def test_found_has_both_coatings_at_both_orders_beside_the_papers_shifts():

@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from itertools import product
-from textwrap import fill
 from typing import Any
 
 from workflow.identify.fits import TWO_NEAREST, of_fit
@@ -49,43 +48,6 @@ def _fit(data_fit: Fit, numbers: Mapping[str, Any]) -> list[str]:
         f"{with_order['effective']:.0f}",
         f"{with_order['blades']:.0f}",
     ]
-
-
-ANSWER = """\
-Of {points} settings, {met_loose} with K = {K_loose} for E = 1 reproduce the paper's four critical
-speeds to half a digit of Ω_c ({order} of these also the higher peak and deeper wear for E = 10),
-{met} with K = {K} for both (the nearest is {nearest:.1f} half digits off), and {met_other} over the
-crossing of EO 6 that the paper's EO 4 implies. The rises of the critical speeds above the linear
-crossings prefer K = {K_loose} by {shifts:.1f} to 1; with that order as data K = {K} is preferred by
-{all_data:.1f} to 1 (effective sizes {few:.0f} and {many:.0f}). The scenes take {K}, as the paper's
-figures differ "by parameter E". Left open (5 to 95 %) are the casing's largest distortion by a
-factor of {casing[0]:.2g} (assumed: {casing[1]:.2g}), the unit of E by {unit[0]:.2g}
-({unit[1]:.3g})."""
-WIDTH = 124  # of the lines of a page
-
-
-def answer(numbers: Mapping[str, Any]) -> str:
-    """Three sentences: how near the paper's shifts come, the K they prefer, the conclusion."""
-    loose, taken = (of_fit(numbers, K, "printed") for K in K_OF_E1)
-    return fill(
-        ANSWER.format(
-            points=len(taken[SHIFTS]["weights"]),
-            K_loose=K_OF_E1[0],
-            K=K_OF_E1[1],
-            met=taken[SHIFTS]["met"],
-            met_loose=loose[SHIFTS]["met"],
-            met_other=max(of_fit(numbers, K, "consistent")[SHIFTS]["met"] for K in K_OF_E1),
-            order=loose[WITH_ORDER]["met"],
-            nearest=max(map(abs, taken["best"]["deviations"])),
-            shifts=loose[SHIFTS]["evidence"] / taken[SHIFTS]["evidence"],
-            all_data=taken[WITH_ORDER]["evidence"] / loose[WITH_ORDER]["evidence"],
-            few=loose[WITH_ORDER]["effective"],
-            many=taken[WITH_ORDER]["effective"],
-            casing=factors(numbers, taken[WITH_ORDER], "casing_gaps"),
-            unit=factors(numbers, taken[WITH_ORDER], "unit_Pa"),
-        ),
-        WIDTH,
-    )
 
 
 def factors(numbers: Mapping[str, Any], posterior: Mapping[str, Any], name: str) -> list[float]:

@@ -6,7 +6,8 @@ from textwrap import fill
 from typing import Any
 
 from workflow.identify.fits import DRAWS, posterior_of
-from workflow.identify.report import WIDTH, factors
+from workflow.identify.report import factors
+from workflow.markdown import WIDTH
 from workflow.paper.report import Row, named
 from workflow.paper.verdict import HOLDS
 
