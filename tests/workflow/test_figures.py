@@ -36,7 +36,7 @@ from test_long_times import (
 from test_scaling import study as cost  # noqa: F401
 from test_spectrogram import files as spectrogram_files  # noqa: F401
 from test_stability_studies import ENGAGED
-from test_trade_figures import features, study  # noqa: F401
+from test_stages import study as by_stage  # noqa: F401
 from tidy import faults
 
 from geometry.blade import Blade
@@ -66,9 +66,9 @@ from workflow.figures import (
     long_times,
     resolution,
     spectra,
+    stages,
     stress,
     style,
-    trade,
     wear,
 )
 from workflow.figures.marks import speed_text
@@ -410,9 +410,7 @@ FIGURES = {
     "design": lambda get: designs.draw(get("design_rows")),
     "sensitivity": lambda get: designs.sensitivity(*read(designs, get("sobol_rows"))),
     "stress": lambda get: stress.draw(*stressed(at_3133=at_one_side, at_5400=at_the_tip)),
-    "trade": lambda get: trade.settings(get("study")),
-    "features": lambda get: trade.changes(get("features")),
-    "steps": lambda get: trade.steps(get("study")),
+    "stages": lambda get: stages.draw(get("by_stage")),
     "mesh": lambda get: mesh.draw(get("of_meshes")),
     "cost": lambda get: scaling.draw(get("cost")),
     "stability": lambda get: stability.draw({"engaged": ENGAGED, "intermittent": INTERMITTENT}),

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
 
 from workflow.figures import cells, style
-from workflow.identify.fits import of_fit
+from workflow.identify.fits import ENOUGH, of_fit
 from workflow.identify.likelihood import SHIFTS, WITH_ORDER
 from workflow.identify.priors import Prior, Priors
 
@@ -30,7 +30,7 @@ PANELS = {  # by parameter: label, scale of its values
 }
 TICKS = {"casing_gaps": (1, 2, 4), "fifth_over_second": (0.3, 1, 3)}  # of short logarithmic ranges
 BINS = 10
-FEW = 0.6  # pt, line of a fit with too few effective points for ranges
+THIN = 0.6  # pt, line of a fit whose ranges are rough
 # Lines by K of E = 1 and data: label, colour, style
 LINES = {
     (0.45, SHIFTS): ("$K$ = 0.45, shifts", style.VERMILLION, "--"),
@@ -67,7 +67,7 @@ def _densities(axes: Axes, fits: Mapping[str, Any], name: str, prior: Prior) -> 
         numbers = of_fit(fits, K)[data]
         counts, _ = np.histogram(values, edges, weights=numbers["weights"])
         label = f"{label}\n({numbers['effective']:.0f} effective points)"
-        width = FEW if numbers["ranges"] is None else None
+        width = THIN if numbers["effective"] < ENOUGH else None
         axes.stairs(BINS * counts, edges, color=color, linestyle=line, linewidth=width, label=label)
     if prior.log:
         axes.set_xscale("log")

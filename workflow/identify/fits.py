@@ -16,7 +16,7 @@ from workflow.identify.proposal import proposal
 from workflow.identify.table import joined
 
 LEVELS = (0.05, 0.5, 0.95)  # quantiles of the parameters
-ENOUGH = 200  # effective size from which a fit's ranges are used
+ENOUGH = 200  # effective size below which ranges are rough
 DRAWS, SEED = 100, 3  # of a distribution, for the claims at its points
 K_TAKEN = 4.55  # of the coating with E = 1, in the fit whose medoid the scenes of the paper take
 TWO_NEAREST = -0.25  # `fourth_over_second`: below, the casing is nearest at four places, not two
@@ -82,14 +82,15 @@ def _posterior(
     sample: Weighted, points: Points, values: Values, agrees: NDArray[np.bool_]
 ) -> dict[str, Any]:
     """Numbers of a posterior; its medoid is one of the points whose EO 4 peaks agree."""
-    supported, ranges, rng = agrees & (sample.weights > 0), None, np.random.default_rng(SEED)
-    if sample.effective >= ENOUGH:
+    supported, ranges, draws = agrees & (sample.weights > 0), None, []
+    if sample.evidence:
         ranges = {
             name: np.quantile(
                 samples, LEVELS, weights=sample.weights, method="inverted_cdf"
             ).tolist()
             for name, samples in values.items()
         }
+        draws = systematic(sample.weights, DRAWS, np.random.default_rng(SEED)).tolist()
     return {
         "effective": sample.effective,
         "evidence": sample.evidence,
@@ -97,7 +98,7 @@ def _posterior(
         "ranges": ranges,
         "four_places": float((values["fourth_over_second"] < TWO_NEAREST) @ sample.weights),
         "medoid": medoid(points, sample.weights, supported) if supported.any() else None,
-        "draws": systematic(sample.weights, DRAWS, rng).tolist() if sample.evidence else [],
+        "draws": draws,
     }
 
 

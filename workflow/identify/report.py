@@ -8,12 +8,12 @@ from workflow.identify.fits import TWO_NEAREST, of_fit
 from workflow.identify.likelihood import FITS, K_OF_E1, SHIFTS, WITH_ORDER, Fit
 from workflow.identify.priors import NAMES
 from workflow.identify.shares import JUDGED
-from workflow.markdown import LEAST, percent, records, table
+from workflow.markdown import LEAST, cell, percent, records, table
 from workflow.paper.claims import CLAIMS
 
 MET = "points within one sigma"
 BOTH = "C12 and C16 hold in"
-FEW = "too few"  # effective points for a range
+UNKNOWN = "-"  # without any point that has the data
 
 
 def fits(numbers: Mapping[str, Any]) -> str:
@@ -61,7 +61,8 @@ def factors(numbers: Mapping[str, Any], posterior: Mapping[str, Any], name: str)
 def ranges(numbers: Mapping[str, Any]) -> str:
     """Median of each parameter, with 5 and 95 %, in the fits to the reading that was served.
 
-    And the share of casings that are nearest at four places: the posterior has two modes.
+    With the share of casings that are nearest at four places, as the posterior has two modes, and
+    the effective size: from ``fits.ENOUGH`` on ranges are more than rough.
     """
     columns = {"prior": numbers["prior"]} | {
         f"K = {K:g}, {data}": of_fit(numbers, K)[data]
@@ -71,17 +72,16 @@ def ranges(numbers: Mapping[str, Any]) -> str:
         [f"`{name}`", *(_range(distribution, name) for distribution in columns.values())]
         for name in NAMES
     ]
-    shares = [
-        f"{100 * distribution['four_places']:.0f} %" if distribution["ranges"] else FEW
-        for distribution in columns.values()
-    ]
-    return table(["", *columns], [*rows, [f"`fourth_over_second` below {TWO_NEAREST}", *shares]])
+    shares = [f"{100 * distribution['four_places']:.0f} %" for distribution in columns.values()]
+    sizes = [cell(distribution.get("effective")) for distribution in columns.values()]
+    below = f"`fourth_over_second` below {TWO_NEAREST}"
+    return table(["", *columns], [*rows, [below, *shares], ["effective size", *sizes]])
 
 
 def _range(distribution: Mapping[str, Any], name: str) -> str:
     """Median of a parameter, with 5 and 95 %, in a posterior or in the prior."""
     if distribution["ranges"] is None:
-        return FEW
+        return UNKNOWN
     low, median, high = (f"{value:.2g}" for value in distribution["ranges"][name])
     return f"{median} ({low} to {high})"
 

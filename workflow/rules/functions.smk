@@ -227,7 +227,6 @@ TABLES = {
     "third": (256, "with C12 and C16"),
     "fourth": (256, "with C12 and C16"),
     "fifth": (512, "with C12 and C16"),
-    "sixth": (512, "with C12 and C16"),
 }
 DRAW_BLOCKS = 10  # jobs for the draws at which the paper's other claims are judged
 # Scenes of these claims.
