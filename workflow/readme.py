@@ -88,16 +88,18 @@ def verdicts(judged: Sequence[Mapping[str, Any]]) -> str:
     model, motion = judged[:OF_MODEL], judged[OF_MODEL:]
     predicted = [row for row in motion if row["verdict"] != "calibrated"]
     held, holding = (sum(row["verdict"] in HOLDS for row in of) for of in (model, predicted))
-    said = PARAGRAPH.format(
-        model=len(model),
-        held=held,
-        motion=len(motion),
-        data=len(motion) - len(predicted),
-        predicted=len(predicted),
-        holding=holding,
-        differ=", ".join(f'"{row["says"]}"' for row in judged if row["verdict"] == "differs"),
+    return fill(
+        PARAGRAPH.format(
+            model=len(model),
+            held=held,
+            motion=len(motion),
+            data=len(motion) - len(predicted),
+            predicted=len(predicted),
+            holding=holding,
+            differ=", ".join(f'"{row["says"]}"' for row in judged if row["verdict"] == "differs"),
+        ),
+        WIDTH,
     )
-    return fill(said, WIDTH)
 
 
 def inputs(counts: Mapping[str, Any]) -> str:

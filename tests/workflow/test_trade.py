@@ -305,5 +305,5 @@ def test_the_tables_have_the_errors_of_the_study(runs):
     (feature,) = cells(trade_table.requirements(rows))
     assert feature[:3] == ["wear feedback", "elastic law", "calm"]
     assert feature[3:] == ["50 %", "-", "50 %", "2", "50 %", "150 %", "0.93"]
-    assert cells(trade_table.fewer_rounds(rows)) == [["5", *["4.2 %"] * 4, "100, 100, 100, 100"]]
+    assert cells(trade_table.fewer_rounds(rows)) == [["5", *["4.2 %"] * 4, "0.1, 0.1, 0.1, 0.1"]]
     assert cells(trade_table.fewer_speeds(rows)) == [["15 speeds", "39", "3.2", "-", "2 %"]]

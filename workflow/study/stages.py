@@ -40,8 +40,7 @@ def records(rows: list[ExperimentRow], before: list[Row]) -> list[Row]:
 
 def tried(rows: Sequence[ExperimentRow]) -> pd.DataFrame:
     """Settings of each stage, and of each scheme."""
-    groups = [group_rows(rows, name).assign(stage=stage) for stage, name in STAGES.items()]
-    runs = pd.concat(groups)
+    runs = pd.concat(group_rows(rows, name).assign(stage=stage) for stage, name in STAGES.items())
     schemes = "step, " + runs["settings"].map(scheme_of)
     stage, of = runs["stage"], runs["stage"].map(OF_STAGE).fillna(runs["scene"].map(OF))
     runs = runs.assign(stage=stage.mask(stage == "step", schemes), of=of)

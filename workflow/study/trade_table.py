@@ -1,13 +1,12 @@
 """Tables of the study of accuracy and time, for the README."""
 
 from collections.abc import Mapping, Sequence
-from math import isnan
 from typing import Any
 
 import pandas as pd
 
 from workflow.experiment.row import ExperimentRow
-from workflow.markdown import cell, percent, table
+from workflow.markdown import cell, percent, table, two_digits
 from workflow.study.levels import (
     OBSERVABLES,
     SCENES,
@@ -31,23 +30,29 @@ def by_level(rows: Sequence[ExperimentRow]) -> str:
             _level(level),
             _settings(level["of"]),
             *_cells(level["of"][OBSERVABLES].max()),
-            ", ".join(level["of"].sort_values("scene")["cpu_s"].map(_ms)),
+            ", ".join(level["of"].sort_values("scene")["cpu_s"].map(two_digits)),
             f"{level['paper_min']:.0f}",
         ]
         for level in levels(rows)
     ]
     floor = _cells(uncertainty(rows).max())
     return table(
-        ["level", "settings", *HEADS, f"ms per run: {', '.join(SCENES)}", "paper, CPU min"],
+        ["level", "settings", *HEADS, f"CPU s per run: {', '.join(SCENES)}", "paper, CPU min"],
         [*lines, [FLOOR, "", *floor, "", ""]],
     )
 
 
 def requirements(rows: Sequence[ExperimentRow]) -> str:
     """Changes of each scene without a feature, and the ratio of CPU times."""
+    times = {(row["scene"], row["row"]): row["cpu_s"] for row in rows}
     lines = [
-        [*row["row"].split(": "), row["scene"], *_cells(row), f"{row['time_ratio']:.2f}"]
-        for row in with_ratios(rows, "feature").to_dict("records")
+        [
+            *row["row"].split(": "),
+            row["scene"],
+            *_cells(row),
+            f"{row['cpu_s'] / times[row['scene'], row['against']]:.2f}",
+        ]
+        for row in group_rows(rows, "feature").to_dict("records")
     ]
     return table(
         ["left out", "instead", "scene", *HEADS, "time ratio"],
@@ -55,21 +60,14 @@ def requirements(rows: Sequence[ExperimentRow]) -> str:
     )
 
 
-def with_ratios(rows: Sequence[ExperimentRow], *groups: str) -> pd.DataFrame:
-    """``group_rows``, with the ratio of CPU times of a row and of its reference."""
-    times, runs = {(r["scene"], r["row"]): r["cpu_s"] for r in rows}, group_rows(rows, *groups)
-    against = [times[pair] for pair in zip(runs["scene"], runs["against"], strict=True)]
-    return runs.assign(time_ratio=runs["cpu_s"] / against)
-
-
 def fewer_rounds(rows: Sequence[ExperimentRow]) -> str:
     """Error of the amplitude and CPU time of a run, by revolutions before those of the spectrum."""
     lines = []
     for name, runs in group_rows(rows, "rounds").set_index("scene").groupby("row", sort=False):
         by_scene = runs.reindex(SCENES)
-        times = ", ".join(by_scene["cpu_s"].map(_ms))
+        times = ", ".join(by_scene["cpu_s"].map(two_digits))
         lines.append([name, *by_scene["amplitude"].map(percent), times])
-    return table(["revolutions before", *SCENES, "ms per run"], lines)
+    return table(["revolutions before", *SCENES, "CPU s per run"], lines)
 
 
 def fewer_speeds(rows: Sequence[ExperimentRow]) -> str:
@@ -85,11 +83,6 @@ def fewer_speeds(rows: Sequence[ExperimentRow]) -> str:
         if row["group"] == "speeds" and "errors" in row["numbers"]
     ]
     return table(["sweep", "runs", "CPU s", "Omega c", "amplitude"], lines)
-
-
-def _ms(seconds: float) -> str:
-    """A time in ms; a dash for nan."""
-    return "-" if isnan(seconds) else f"{1e3 * seconds:.0f}"
 
 
 def _level(level_row: Mapping[str, Any]) -> str:
