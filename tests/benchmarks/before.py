@@ -10,34 +10,37 @@ import subprocess
 import sys
 from collections import defaultdict
 from pathlib import Path
-from resource import RUSAGE_CHILDREN, getrusage
 from tempfile import TemporaryDirectory
 
-COMMIT = "2085b24"  # of version 0.2.0, before the trade was improved
+COMMIT = "2085b24"  # before the models and runs of today
 BLADES = ("coarse", "", "fine", "n8", "n32", "rich", "paper")
 MODES = (12, 18)  # natural modes of further models of `reference`
 FIRST = """
+import os
 from geometry.blade import Blade
+from geometry.mesh import build_mesh
 from geometry.settings import read_settings
+from fem.assemble import over_speeds
+from fem.matrices import Matrices
+from rom.reconstruct import Basis
+from rom.reduce import reduce
+from rom.speeds import basis_speeds
+begun = sum(os.times()[:4])
 blade = read_settings(Blade, "workflow/blades/{blade}.yaml")
+"""
+LAST = """
+print("CPU", sum(os.times()[:4]) - begun)
 """
 JOBS = {  # as the scripts of the rules
     "mesh": """
-from geometry.mesh import build_mesh
 build_mesh(blade, "results/{blade}/blade.msh", None)
 """,
     "assemble": """
-from fem.assemble import over_speeds
-from fem.matrices import Matrices
-from rom.speeds import basis_speeds
 speeds = basis_speeds(blade.basis, blade.max_speed_rad_s)
 constants, states = over_speeds(blade, "{blade}", "results/{blade}/blade.msh", speeds)
 Matrices.of(constants, states).save("results/{blade}/matrices.h5")
 """,
     "reduce": """
-from fem.matrices import Matrices
-from rom.reconstruct import Basis
-from rom.reduce import reduce
 fom = Matrices.load("results/{blade}/matrices.h5")
 rom, T = reduce(fom, blade.basis{changes}, "{directions}")
 Basis.of(fom, T, rom.provenance).save("results/{blade}/basis.h5")
@@ -66,7 +69,6 @@ for name, studied in SCENES.items():
         if item.study != "front":
             row = _row(item, march(item.setting, TURNS), march(item.against, 0).read)
             rows.append({"study": item.study, "scene": name} | row)
-            print(name, item.study, row["label"], row["cpu_s"], flush=True)
 open("runs.json", "w").write(json.dumps(rows))
 """
 STAGES = {
@@ -84,13 +86,18 @@ RODS = {  # per round, of a flat and a tilted tip, which are one setting today
 JUDGED = ("amplitude", "wear", "force", "history")
 
 
-def seconds(code, folder):
-    """CPU time of a job: a Python of its own."""
-    begun = getrusage(RUSAGE_CHILDREN)
+def python(code, folder):
+    """What a Python of its own prints, with the code of the folder."""
     here = os.environ | {"PYTHONPATH": str(folder), "OMP_NUM_THREADS": "1"}
-    subprocess.run([sys.executable, "-c", code], cwd=folder, env=here, check=True)
-    ended = getrusage(RUSAGE_CHILDREN)
-    return ended.ru_utime + ended.ru_stime - begun.ru_utime - begun.ru_stime
+    command = [sys.executable, "-c", code]
+    done = subprocess.run(command, cwd=folder, env=here, check=True, stdout=subprocess.PIPE)
+    return done.stdout.decode()
+
+
+def seconds(job, folder, **about):
+    """CPU time of a job without its imports, as jobs of today tell it."""
+    printed = python(FIRST.format(**about) + JOBS[job].format(**about) + LAST, folder)
+    return float(printed.split("CPU")[-1])
 
 
 def models(folder):
@@ -98,12 +105,7 @@ def models(folder):
     spent = {}
     for name in (f"reference-{of}".strip("-") for of in BLADES):
         (folder / "results" / name).mkdir(parents=True, exist_ok=True)
-        first = FIRST.format(blade=name)
-        at = {
-            job: seconds(first + JOBS[job].format(blade=name), folder)
-            for job in JOBS
-            if job != "reduce"
-        }
+        before = sum(seconds(job, folder, blade=name) for job in ("mesh", "assemble"))
         for modes in (None, *MODES) if name == "reference" else (None,):
             for directions in ("rt", "r"):
                 file = f"results/{name}/rom-{directions}.nc"
@@ -111,11 +113,9 @@ def models(folder):
                     file = f"results/trade/models/{name}-{modes}-modes-{directions}.nc"
                 (folder / file).parent.mkdir(parents=True, exist_ok=True)
                 changes = f".model_copy(update={{'natural_modes': {modes}}})" if modes else ""
-                code = JOBS["reduce"].format(
-                    blade=name, directions=directions, changes=changes, file=file
-                )
-                last = seconds(first + code, folder)
-            spent[name, modes] = sum(at.values()) + last
+                about = {"directions": directions, "changes": changes, "file": file}
+                last = seconds("reduce", folder, blade=name, **about)
+            spent[name, modes] = before + last
             print(name, modes, spent[name, modes], flush=True)
     return spent
 
@@ -159,6 +159,6 @@ if __name__ == "__main__":
         subprocess.run(["git", "clone", "-q", str(root), str(folder)], check=True)
         subprocess.run(["git", "checkout", "-q", COMMIT], cwd=folder, check=True)
         spent = models(folder)
-        seconds(RUNS, folder)
+        python(RUNS, folder)
         found = stages(json.loads((folder / "runs.json").read_text()), spent)
     Path(__file__).with_suffix(".json").write_text(json.dumps(found, indent=1) + "\n")
