@@ -1,4 +1,4 @@
-"""The trade by stage of an earlier version, on this machine: tests/benchmarks/before.json.
+"""The trade by stage of an earlier version, on this machine: workflow/study/before.json.
 
 ./run python tests/benchmarks/before.py: some 30 min of one core. Then `./run snakemake trade` on
 the same machine, for a table and a figure of both versions. It needs the history of the repository.
@@ -161,4 +161,4 @@ if __name__ == "__main__":
         spent = models(folder)
         python(RUNS, folder)
         found = stages(json.loads((folder / "runs.json").read_text()), spent)
-    Path(__file__).with_suffix(".json").write_text(json.dumps(found, indent=1) + "\n")
+    (root / "workflow/study/before.json").write_text(json.dumps(found, indent=1) + "\n")

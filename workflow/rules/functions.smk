@@ -106,7 +106,7 @@ def source_of_blade(wildcards):
 
 def before_stages(wildcards):
     """Those of an earlier version, by tests/benchmarks/before.py."""
-    return own_files(["tests/benchmarks/before.json"])[0]
+    return own_files(["workflow/study/before.json"])[0]
 
 
 def scene_of_stability(wildcards):
