@@ -71,13 +71,17 @@ class Project:
 
 
 def make_project(folder: Path) -> Project:
-    """Copy the sources; coarsen the reference blade and shorten the paper's scenes."""
+    """Copy the sources; coarsen the reference blade and shorten the paper's scenes.
+
+    Blade `paper` has the shape of `reference`: tests know its numbers, whatever is inferred.
+    """
     for name in COPIED:
         source = ROOT / name
         copy = shutil.copytree if source.is_dir() else shutil.copy2
         copy(source, folder / name)
     project = Project(folder)
     project.edit("workflow/blades/reference.yaml", _coarsen)
+    project.edit("workflow/blades/paper.yaml", _of_the_reference)
     project.edit("workflow/scenes/paper.yaml", _shorten)
     for coating in ("e1", "e10"):
         project.edit(f"workflow/scenes/paper-{coating}.yaml", _close_in_no_further)
@@ -86,6 +90,10 @@ def make_project(folder: Path) -> Project:
     scenes = ["paper-e1", "paper-e10", "peak-e1"]  # of two speeds or one, with states
     project.edit("workflow/config.yaml", lambda config: config.update(blocks=2, scenes=scenes))
     return project
+
+
+def _of_the_reference(blade):
+    del blade["sections"], blade["max_speed_rad_s"]
 
 
 def _coarsen(blade):

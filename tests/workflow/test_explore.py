@@ -9,6 +9,7 @@ import shutil
 import numpy as np
 import pytest
 import xarray as xr
+from made_sweeps import RUBBING
 from projects import ROOT
 from scipy.spatial import cKDTree
 
@@ -48,6 +49,7 @@ def response(coarse_rom):
         peaks=None,
         record=record | {"states_rounds": 1, "history": {"chord": [0.0625]}},
         liner__strips=8,
+        **RUBBING,
     )
     speeds = 2 * np.pi * coarse_rom.f1 * np.array(SPEEDS)
     return Response(as_sweep(at_speeds(scene, coarse_rom, speeds)), coarse_rom)

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import pyvista as pv
+from made_sweeps import RUBBING
 from projects import ROOT
 from scipy.spatial import cKDTree
 
@@ -30,6 +31,7 @@ def sweep(coarse_rom):
         peaks=None,
         record=record,
         liner__strips=8,
+        **RUBBING,
     )
     speeds = 2 * np.pi * coarse_rom.f1 * np.array(SPEEDS)
     runs = as_sweep(at_speeds(scene, coarse_rom, speeds))
