@@ -28,6 +28,18 @@ SCHEMES = {
     "piecewise-exact": {"scheme": "piecewise-exact", "steps_per_round": 640},
 }
 EXACT = SCHEMES["piecewise-exact"]
+# Damping and casing, and a unit of E, with which the tip of blade `reference` rubs at all speeds
+TWO_LOBES = {
+    "damping_ratio": 0.0029,
+    "casing__scale": 1.27,
+    "casing__harmonics": [
+        {"order": 0, "amplitude_gaps": 0.633},
+        {"order": 2, "amplitude_gaps": 1.0},
+        {"order": 4, "amplitude_gaps": 0.381, "phase_deg": 180},
+    ],
+}
+UNIT = 1.64e9  # Pa
+RUBBING = TWO_LOBES | {"liner__law__unit_Pa": UNIT}
 EXPLICIT_TO_EXACT = (  # in the lines above
     "{scheme: central-difference, fraction_of_limit: 0.8}",
     "{scheme: piecewise-exact, steps_per_round: 640}",

@@ -9,7 +9,7 @@ from math import ceil, inf, nan
 import numpy as np
 import pytest
 from refused import refused
-from scenes import EXACT, of_steps, scene
+from scenes import EXACT, RUBBING, of_steps, scene
 from scipy.signal import lfilter
 
 from geometry.project import ROOT, SettingsError
@@ -197,9 +197,10 @@ def test_what_is_recorded_of_the_last_rounds_does_not_go_with_it():
     assert error.key == "until" and "record.history" in str(error)
 
 
-def test_the_first_peak_of_the_paper_still_grows_after_its_twenty_rounds(coarse_rom):
+def test_a_peak_still_grows_after_the_twenty_rounds_of_the_paper(coarse_rom):
     """Near 0.350 f1(0) with the ductile coating: its amplitude there is none of a steady motion."""
-    case = Scene.load(ROOT / "workflow/scenes/paper.yaml").but(liner={"strips": 8})
+    paper = Scene.load(ROOT / "workflow/scenes/paper.yaml")
+    case = paper.but(**RUBBING, liner__strips=8)
     run = marched(case, coarse_rom, 0.35)
     assert (run.status, run.trend, run.each.largest[1]) == ("ok", GROWING, 20.0)
     assert run.time_constant == pytest.approx(15, rel=0.1)  # 0.29 %, k = 3.7

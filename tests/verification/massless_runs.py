@@ -18,6 +18,7 @@ from massless import (
     step_limit,
 )
 from numpy.typing import NDArray
+from scenes import TWO_LOBES, UNIT
 
 from fem.matrices import Matrices
 from geometry.blade import Blade
@@ -31,7 +32,6 @@ BLADES, SCENES = ROOT / "workflow/blades", ROOT / "workflow/scenes"
 MEASURED = Path(__file__).with_name("massless_study.json")
 OWN, MASSLESS, CENTRAL = "piecewise-exact", "massless boundary", "central differences"
 FIXED, STATIC = "massless boundary, Craig-Bampton", "piecewise-exact with static modes"
-UNIT = 1.64e9  # Pa
 LAWS = {
     "rigid casing": {"kind": "rigid"},
     "elastic liner": {"kind": "elastic", "E": 10.0, "unit_Pa": UNIT},
@@ -84,7 +84,7 @@ def model(name: str, size: float, natural_modes: int) -> Rom:
 
 
 def rub(rom: Rom, law: Mapping[str, Any], over_f1: float, **more: Any) -> Rub:
-    """The paper's scene with a law of the liner, from rest; ``more`` changes of it."""
+    """The paper's scene in two lobes, with a law of the liner, from rest; ``more`` changes."""
     scene = Scene.load(SCENES / "paper-e10.yaml").but(
         rounds=ROUNDS,
         speeds={"over_f1": [over_f1]},
@@ -92,7 +92,7 @@ def rub(rom: Rom, law: Mapping[str, Any], over_f1: float, **more: Any) -> Rub:
         record={"samples_per_round": SAMPLES, "spectrum_rounds": LAST, "contact_force": True},
         twin=False,
         peaks=None,
-        **more,
+        **(TWO_LOBES | more),
     )
     return Rub(scene, rom, over_f1 * rom.omega1)
 

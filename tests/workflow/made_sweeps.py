@@ -16,18 +16,6 @@ PROVENANCE = Provenance("reference", "a mesh", {}, code_hash(*CODE))
 # Strips of unequal length: the first and a third of the second make up the leading eighth
 ENDS = np.array([0, 1 / 16, 1 / 4, 1])
 
-# Damping, casing and unit of E with which the tip of the coarse blade rubs at all speeds
-RUBBING = {
-    "damping_ratio": 0.0029,
-    "casing__scale": 1.27,
-    "casing__harmonics": [
-        {"order": 0, "amplitude_gaps": 0.633},
-        {"order": 2, "amplitude_gaps": 1.0},
-        {"order": 4, "amplitude_gaps": 0.381, "phase_deg": 180},
-    ],
-    "liner__law__unit_Pa": 1.64e9,
-}
-
 
 def made_rom():
     """Three modes, at 1, 4 and 4 times f1(0) at rest, the radial ones first, on two patches."""

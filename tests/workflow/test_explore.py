@@ -9,8 +9,8 @@ import shutil
 import numpy as np
 import pytest
 import xarray as xr
-from made_sweeps import RUBBING
 from projects import ROOT
+from scenes import RUBBING
 from scipy.spatial import cKDTree
 
 from fem.fatigue import von_mises

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 import pyvista as pv
-from made_sweeps import RUBBING
 from projects import ROOT
+from scenes import RUBBING
 from scipy.spatial import cKDTree
 
 from fem.fatigue import largest_cycle, margin, von_mises
