@@ -168,7 +168,7 @@ OF_FINAL_STATE = {  # dimensions of each field of ``FinalState`` that is an arra
     "eps_p": ("strip", "theta"),
     "part": ("strip", "end_rod"),
     "stored": ("strip", "end_rod"),
-    "under": ("end_under", "strip"),
+    "under": ("end_strip_field", "strip"),
     "solver": ("end_solver_field", "strip"),
 }
 DIMS = {  # of the variables that every sweep has, or records: numbers in every run with a result

@@ -148,7 +148,8 @@ def test_a_sweep_holds_what_the_scene_records_and_no_more(coarse_rom, plain):
 def test_a_sweep_holds_runs_that_end_early_and_runs_that_do_not(coarse_rom):
     """A soft, thin coating is worn through at the crossing with eo(4), but not far below it."""
     thin = {"liner__thickness_m": 8e-6, "liner__law__K": 0.01}
-    result = swept(scene(rounds=3, **thin, speeds={"over_f1": [0.1, 0.31]}), coarse_rom)
+    speeds = {"over_f1": [0.1, 0.31]}
+    result = swept(scene(rounds=3, **thin, speeds=speeds, record__end=True), coarse_rom)
     assert result.status.values.tolist() == ["ok", "liner-exhausted"]
     ok, ended = (result.isel(speed_over_f1=k) for k in (0, 1))
     assert np.isnan(ended.spectrum).all() and np.isfinite(ok.spectrum).all()
@@ -161,6 +162,7 @@ def test_a_sweep_holds_runs_that_end_early_and_runs_that_do_not(coarse_rom):
     assert ended.end_xi.item() in result.xi.values
     assert 0 <= ended.end_theta < 2 * np.pi
     assert np.isnan(ok.end_xi) and np.isnan(ok.end_theta)
+    assert np.isfinite(ok.end_under).all() and np.isnan(ended.end_under).all()
 
 
 def test_blocks_of_other_origin_are_not_merged(coarse_rom, plain):
