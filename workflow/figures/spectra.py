@@ -15,7 +15,7 @@ from matplotlib.ticker import MultipleLocator
 from numpy.typing import NDArray
 
 from geometry.blade import RPM
-from simulate.errors.signals import mode_share, spectrogram, spectrum
+from simulate.errors.signals import spectrogram, spectrum
 from simulate.sweeps.dataset import SPEED, Sweep
 from simulate.sweeps.peak import Peak, along_order, crossing
 from workflow.figures import style, units
@@ -28,7 +28,7 @@ from workflow.figures.marks import (
     speed_text,
 )
 from workflow.figures.response import Response
-from workflow.paper.measure import HIGHEST, SPECTRUM_ROUNDS, disorder
+from workflow.paper.measure import HIGHEST, SPECTRUM_ROUNDS, disorder, share_of_mode_1
 from workflow.paper.printed import CRITICAL, ENGINE_ORDER, expected
 
 SHOWN = 2.5  # f / f1(0), highest in the map over the speed
@@ -246,7 +246,7 @@ def over_time(without: Response, withit: Response) -> Figure:
             continue
         omega, _ = response.rom.modes(float(response.sweep["speed"][peak.index]))
         modes = omega[:MODES] / response.rom.omega1
-        axes.set_title(f"{title}, {_at_peak(response, peak, modes[0])}")
+        axes.set_title(f"{title}, {_at_peak(response, peak)}")
         _spectrogram(axes, response, peak)
         _mark_modes(axes, modes)
     panels[0].yaxis.set_major_locator(MultipleLocator(5))
@@ -255,15 +255,15 @@ def over_time(without: Response, withit: Response) -> Figure:
     return drawn
 
 
-def _at_peak(response: Response, peak: Peak, f1: float) -> str:
+def _at_peak(response: Response, peak: Peak) -> str:
     """Critical speed; energy share of mode 1 and entropy of the last revolutions' spectrum."""
     samples = response.scene.record.samples_per_round
     last = response.u_r[peak.index, -SPECTRUM_ROUNDS * samples :]
-    share = mode_share(last, samples, peak.Omega_c, f1)
     chance = ", sensitive" if response.status[peak.index] == "sensitive" else ""
     return (
         rf"$\Omega_c$ = {speed_text(response, peak)}{chance}"
-        f"\nlast {SPECTRUM_ROUNDS} revolutions: mode 1 has {100 * share:.1f} % of the energy; "
+        f"\nlast {SPECTRUM_ROUNDS} revolutions: mode 1 has "
+        f"{100 * share_of_mode_1(last, samples, peak):.1f} % of the energy; "
         f"entropy of the amplitudes {disorder(last, peak.Omega_c):.2f}"
     )
 

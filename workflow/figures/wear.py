@@ -93,7 +93,7 @@ def _printed(axes: Axes, response: Response, part: str) -> None:
         markerfacecolor="none",
         color=style.VERMILLION,
     )
-    axes.legend(loc="upper center", ncols=2, handletextpad=0.2, borderaxespad=0.1)
+    axes.legend(loc="lower right", bbox_to_anchor=(1, 1), handletextpad=0.2, borderaxespad=0.1)
 
 
 @style.styled

@@ -223,10 +223,8 @@ def lobes(numbers: Numbers) -> Finding:
     statements.append(less("wear between lobes over theirs, at most", max(between), 0.5))
     return Finding(
         statements=tuple(statements),
-        because="With a fourth harmonic below minus a quarter of its second our casing is nearest "
-        "at two places in each lobe; where the tip does not vibrate, it wears all four. With a "
-        "pure cos 2 theta it wears two, but E = 1 has no k lobes at its peaks, which the fourth "
-        "harmonic excites.",
+        because="A tip that vibrates little wears only those of its k lobes that lie where the "
+        "casing is near: with E = 1 two of six are missing.",
     )
 
 
@@ -275,9 +273,8 @@ def corners(numbers: Numbers) -> Finding:
             ),
         ),
         shown={"bare casing over gap": rigid},
-        because="With this unit of E the smallest moduli are stiff contact."
-        if soft > most
-        else "The stiffest coating still wears, and its gap grows.",
+        because="With this unit of E the smallest moduli are stiff contact. " * (soft > most)
+        + "The stiffest coating still wears, and its gap grows." * (abs(stiff - 1) > LIKE),
     )
 
 
@@ -320,8 +317,8 @@ def imperfect_casing(numbers: Numbers) -> Finding:
             more("turn of the lobes near Omega_c of k = 5, deg", casing["turn_deg"], BLUR_DEG),
         ),
         {"share of five lobes off resonance": casing["five_off_resonance"]},
-        "Our casing has no harmonics of four or six diameters; that of five excites more than that "
-        "of two.",
+        "Two of the five lobes of our casing close in by less than the gap: off resonance the tip "
+        "rubs the other three.",
     )
 
 
@@ -348,8 +345,9 @@ def tangential_lowers(numbers: Numbers) -> Finding:
     return Finding(
         statements=tuple(statements),
         shown=shown,
-        because=f"In mode 1 the tip moves by u_t = {lean:.0f} u_r at 1/16 of the chord: if that "
-        "ratio is negative, a force against the rotation moves the tip outward, into the liner.",
+        because=f"In mode 1 the tip moves by u_t = {lean:.0f} u_r at 1/16 of the chord: with a "
+        f"tangential force of {FORCE_RATIO:g} of the radial one the contact works "
+        f"{abs(1 + FORCE_RATIO * lean):.1f} times as much on it.",
     )
 
 

@@ -30,7 +30,7 @@ from simulate.errors.signals import (
 from simulate.marching import WITH_RESULT, march, prepare
 from simulate.scene import LEADING, Scene
 from simulate.sweeps.dataset import over_f1, scene_of, statuses
-from simulate.sweeps.peak import ORDERS, crossing, peak_of
+from simulate.sweeps.peak import ORDERS, Peak, crossing, peak_of
 from workflow.paper.grid import coating_of, worst
 from workflow.paper.peaks import lobes_over_speed, peak
 from workflow.paper.printed import WORST
@@ -160,16 +160,20 @@ def tip_force(runs: xr.Dataset, rom: Rom) -> Numbers | None:
     if (main := peak_of(runs, rom, 4)) is None:
         return None
     run = runs.isel(speed_over_f1=main.index)
-    u_r = run["history"].values[0] / leading_gap(runs)
     samples = scene_of(runs).record.samples_per_round
-    last = u_r[len(u_r) // 2 :]
+    last = run["history"].values[0, -SPECTRUM_ROUNDS * samples :] / leading_gap(runs)
     return {
         "peaks": {str(k): peak(runs, rom, k) for k in (4, 6)},
         "statuses": statuses(runs),
         "ratio": _ratio(runs),
-        "mode_share": mode_share(last, samples, main.Omega_c, float(run["f1"])),
+        "mode_share": share_of_mode_1(last, samples, main),
         "disorder": disorder(last, main.Omega_c),
     }
+
+
+def share_of_mode_1(u_r: NDArray[np.float64], samples: int, main: Peak) -> float:
+    """Share of mode 1, in contact at 4 Omega_c, in the energy of ``u_r`` at the peak of EO 4."""
+    return mode_share(u_r, samples, main.Omega_c, 4 * main.Omega_c)
 
 
 def disorder(u_r: NDArray[np.float64], speed_over_f1: float) -> float:
