@@ -190,7 +190,7 @@ def folders_of_targets(wildcards):
     swept = [*(f"paper-{name}" for name in (*SWEPT, *OTHERS)), *BEYOND]
     folders = {
         "paper": [
-            *("paper", "paper-points", "reference-points", "experiments/grid"),
+            *("paper", "paper-points", "reference-points-coarse", "experiments/grid"),
             *(f"paper/{name}" for name in swept),
         ],
         "paper_uncertainty": ["paper-rich", "experiments/repeats"],
