@@ -187,12 +187,12 @@ BEYOND = ("long-20", "long-200", "long-2000", "run-up", "run-down", "on-worn")
 
 def folders_of_targets(wildcards):
     """Folders with the benchmarks of the jobs of each target."""
-    swept = [*(f"paper-{name}" for name in (*SWEPT, *OTHERS)), *BEYOND]
     folders = {
         "paper": [
             *("paper", "paper-points", "reference-points-coarse", "experiments/grid"),
-            *(f"paper/{name}" for name in swept),
+            *(f"paper/paper-{name}" for name in (*SWEPT, *OTHERS)),
         ],
+        "paper_beyond": [f"paper/{name}" for name in BEYOND],
         "paper_uncertainty": ["paper-rich", "experiments/repeats"],
         "paper_causes": ["paper-nonlinear", "paper-wide", "experiments/causes"],
         "paper_rotor37": ["rotor37-fast", "rotor37-fast-points", "experiments/rotor37"],
