@@ -75,7 +75,7 @@ def test_one_command_plans_every_figure_and_the_table_once(project):
 @pytest.mark.parametrize(
     ("target", "jobs"),
     [
-        ("paper_beyond", {"sweep": 6, "draw_long_times": 1, "experiment_block": 0}),
+        ("paper_beyond", {"sweep": 7, "draw_long_times": 1, "experiment_block": 0}),
         ("paper_uncertainty", {"experiment_block": 2, "growth": 1}),
         ("paper_causes", {"experiment_block": 2, "growth": 0}),
         ("paper_rotor37", {"experiment_block": 2, "growth": 1, "paper_model": 1}),
