@@ -31,7 +31,8 @@ class Project:
     folder: Path
 
     def command(self, *arguments: str) -> list[str]:
-        return [sys.executable, "-m", "snakemake", "--cores", "2", *arguments]
+        ends_at_once = "--max-jobs-per-timespan", "100/1s"
+        return [sys.executable, "-m", "snakemake", "--cores", "2", *ends_at_once, *arguments]
 
     @property
     def environment(self) -> dict[str, str]:
