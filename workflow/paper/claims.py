@@ -224,7 +224,7 @@ def lobes(numbers: Numbers) -> Finding:
     return Finding(
         statements=tuple(statements),
         because="A tip that vibrates little wears only those of its k lobes that lie where the "
-        "casing is near: with E = 1 two of six are missing.",
+        "casing is near.",
     )
 
 

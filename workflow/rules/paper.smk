@@ -9,7 +9,7 @@ rule paper:
         pictures(
             name
             for name, row in FIGURES.rows.items()
-            if row.category == "The paper" and name != "long-times" or name.startswith("fig")
+            if row.category == "The paper" or name.startswith("fig")
         ),
         pictures(["stress-paper-e10"]),
 
