@@ -136,8 +136,7 @@ def _crossings(
 
 def _printed(axes: Axes) -> None:
     """Mark the crossings that the paper prints, with half a digit to both sides."""
-    speeds = np.array([*CROSSING.values()])
-    orders = np.array([*CROSSING])
+    orders, speeds = np.array([*CROSSING.items()]).T
     axes.errorbar(
         speeds,
         orders * speeds,

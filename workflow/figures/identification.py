@@ -66,9 +66,14 @@ def _densities(axes: Axes, fits: Mapping[str, Any], name: str, prior: Prior) -> 
     for (K, data), (label, color, line) in LINES.items():
         numbers = of_fit(fits, K)[data]
         counts, _ = np.histogram(values, edges, weights=numbers["weights"])
-        label = f"{label}\n({numbers['effective']:.0f} effective points)"
-        width = THIN if numbers["effective"] < ENOUGH else None
-        axes.stairs(BINS * counts, edges, color=color, linestyle=line, linewidth=width, label=label)
+        axes.stairs(
+            BINS * counts,
+            edges,
+            color=color,
+            linestyle=line,
+            linewidth=THIN if numbers["effective"] < ENOUGH else None,
+            label=f"{label}\n({numbers['effective']:.0f} effective points)",
+        )
     if prior.log:
         axes.set_xscale("log")
         axes.xaxis.set_minor_locator(NullLocator())

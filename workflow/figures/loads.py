@@ -103,7 +103,8 @@ def panels(
     loads: Sequence[Loads], f1: float, blade: str, operating: Mapping[str, Any] = NO_LINES
 ) -> Figure:
     """A panel for each number that is known, lines over the speed, and the peaks with their ±."""
-    shown = [panel for panel in PANELS if any(_has(scene, panel[0]) for scene in loads)]
+    numbers = [of for scene in loads for of in (scene.lines, *(p.numbers for p in scene.peaks))]
+    shown = [panel for panel in PANELS if any(panel[0] in of for of in numbers)]
     drawn, grid = style.subplots(
         style.DOUBLE, 1.2 + 1.25 * len(shown), len(shown), letters=True, sharex=True, squeeze=False
     )
@@ -130,10 +131,6 @@ def _unknown(loads: Sequence[Loads]) -> str:
     return "; ".join(
         f"not known of {scene.name}: {scene.no_torque}" for scene in loads if scene.no_torque
     )
-
-
-def _has(loads: Loads, name: str) -> bool:
-    return name in loads.lines or any(name in peak.numbers for peak in loads.peaks)
 
 
 def _draw(axes: Axes, loads: Loads, name: str, scale: float, number: int) -> None:

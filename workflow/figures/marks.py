@@ -29,6 +29,7 @@ OPERATING = ((0, (7, 2, 1.5, 2)), (0, (1.5, 1.5)))  # dashes of design and idle 
 CROSSINGS_AT, PEAKS_AT = 1.035, 1.15  # of the axes' height
 NO_RESULT, NOT_PREDICTABLE, NO_CONTACT = "/////", "\\\\\\\\\\", "...."  # hatches
 SIZES = {"handlelength": 2.6, "handleheight": 1.3}  # of hatches in a legend
+LINE = 0.026  # of the width of axes over speeds, a line of small type
 POINTS = 161  # speeds of a curve of natural frequencies
 
 
@@ -115,8 +116,9 @@ def _row(axes: Axes, height: float, face: str, title: str, speeds: dict[int, flo
         markersize=4,
         clip_on=False,
     )
-    for k, speed in speeds.items():
-        style.note(axes, (speed, height), str(k), (0, 3.5), xycoords=across, ha="center")
+    places = spread(np.array([*speeds.values()]), LINE * np.ptp(axes.get_xlim()))
+    for k, place in zip(speeds, places, strict=True):
+        style.note(axes, (place, height), str(k), (0, 3.5), xycoords=across, ha="center")
 
 
 def hatch(drawn: Figure, panels: Sequence[Axes], response: Response, observable: str) -> None:
@@ -164,3 +166,18 @@ def frequencies_over_speed(rom: Rom, modes: int) -> tuple[NDArray[np.float64], N
     speeds = np.linspace(0, rom.Omega_m, POINTS)
     frequencies = np.array([rom.modes(speed)[0][:modes] for speed in speeds])
     return speeds / unit, frequencies / unit
+
+
+def spread(places: NDArray[np.float64], distance: float) -> NDArray[np.float64]:
+    """``places`` (n,) in any order, moved to a distance of ``distance`` at least.
+
+    The mean of the places moved upwards as little as needed and those moved downwards.
+
+    >>> spread(np.array([3.0, 1.0, 1.5]), 1.0).tolist()
+    [3.0, 0.75, 1.75]
+    """
+    steps = distance * places.argsort().argsort()
+    above = places[:, None] >= places
+    up = np.where(above, places - steps, -np.inf).max(axis=1, initial=-np.inf)
+    down = np.where(above.T, places - steps, np.inf).min(axis=1, initial=np.inf)
+    return (up + down) / 2 + steps

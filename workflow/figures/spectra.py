@@ -20,12 +20,14 @@ from simulate.sweeps.dataset import SPEED, Sweep
 from simulate.sweeps.peak import Peak, along_order, crossing
 from workflow.figures import style, units
 from workflow.figures.marks import (
+    LINE,
     NO_LINES,
     engine_order,
     frequencies_over_speed,
     hatch,
     operating_lines,
     speed_text,
+    spread,
 )
 from workflow.figures.response import Response
 from workflow.paper.measure import HIGHEST, SPECTRUM_ROUNDS, disorder, share_of_mode_1
@@ -150,8 +152,11 @@ def _amplitudes(axes: Axes, response: Response, printed: str | None) -> None:
     )
     axes.set(yscale="log", ylabel=f"amplitude\n{unit.label}")
     style.beside(axes, second.scale / unit.scale, f"amplitude {second.label}")
-    for peak in response.peaks:
-        _name(axes, response, peak)
+    names = spread(
+        np.array([peak.Omega_c for peak in response.peaks]), LINE * np.ptp(axes.get_xlim())
+    )
+    for peak, across in zip(response.peaks, names, strict=True):
+        _name(axes, response, peak, across)
 
 
 def _others(axes: Axes, response: Response) -> None:
@@ -175,14 +180,14 @@ def _printed(axes: Axes, response: Response, part: str) -> list[Patch]:
     return [Patch(color=style.GREY, alpha=SHADE, linewidth=0, label=r"$\Omega_c$, paper")]
 
 
-def _name(axes: Axes, response: Response, peak: Peak) -> None:
-    """Write k and the critical speed above the axes, with a line down to the peak."""
+def _name(axes: Axes, response: Response, peak: Peak, across: float) -> None:
+    """Write k and the critical speed above the axes, at x, with a line down to the peak."""
     place = peak.Omega_c, response.units["length"][0].scale * peak.amplitude
     axes.plot(*place, ".", color=style.BLACK, markersize=4)
     axes.annotate(
         f"EO {peak.k}:  {speed_text(response, peak)}",
         place,
-        (peak.Omega_c, 1.03),
+        (across, 1.03),
         textcoords=axes.get_xaxis_transform(),
         rotation=90,
         ha="center",
@@ -299,14 +304,3 @@ def _mark_modes(axes: Axes, modes: NDArray[np.float64]) -> None:
             fontsize=7.5,
             va="center",
         )
-
-
-def spread(places: NDArray[np.float64], distance: float) -> NDArray[np.float64]:
-    """Ascending ``places`` moved to a distance of ``distance`` at least.
-
-    The mean of the places moved upwards as little as needed and those moved downwards.
-    """
-    steps = distance * np.arange(len(places))
-    up = np.maximum.accumulate(places - steps) + steps
-    down = np.minimum.accumulate((places - steps)[::-1])[::-1] + steps
-    return (up + down) / 2
