@@ -41,7 +41,8 @@ OF_MODEL = 10  # claims on model and method, the first ones
 PARAGRAPH = """\
 Of the paper's {model} statements on its model and method, {held} hold here. Of its {motion}
 statements on how the blade vibrates and the liner wears, {data} served to infer what it leaves
-open; of the other {predicted}, {holding} hold on the blade inferred. Not found there: {differ}."""
+open; of the other {predicted}, {holding} hold on the blade inferred. Not found there: {differs};
+undecided, within the error of our runs: {undecided}."""
 OVER_F1 = ("Ω_c / f₁(0)", "Ω_c / crossing")
 OVER_GAP = ("‖Y‖ / gap", "worn depth / gap")
 
@@ -96,7 +97,13 @@ def verdicts(judged: Sequence[Mapping[str, Any]]) -> str:
             data=len(motion) - len(predicted),
             predicted=len(predicted),
             holding=holding,
-            differ=", ".join(f'"{row["says"]}"' for row in judged if row["verdict"] == "differs"),
+            **{
+                verdict: ", ".join(
+                    f'"{row["says"]}"' for row in judged if row["verdict"] == verdict
+                )
+                or "none"
+                for verdict in ("differs", "undecided")
+            },
         ),
         WIDTH,
     )
