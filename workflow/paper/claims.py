@@ -261,8 +261,8 @@ def worst_case(numbers: Numbers) -> Finding:
 def corners(numbers: Numbers) -> Finding:
     """C18."""
     grid, rigid = numbers["grid"], numbers["long"]["rigid"]["amplitude"]
-    soft, most = grid["softest"] / grid["worst"]["amplitude"], 0.5
-    stiff = grid["stiffest"] / rigid
+    soft, most = float(grid["softest"] / grid["worst"]["amplitude"]), 0.5
+    stiff = float(grid["stiffest"] / rigid)
     return Finding(
         statements=(
             less(f"E = {E[0]:g}, K = {K[0]:g} over the worst, half at most", soft, most),
