@@ -30,6 +30,7 @@ LONG = {
     "rounds": [20, 200, 2000],
     "speeds": [0.35, 0.36],
     "amplitude": [[0.5, 2.0], [0.4, 2.1], [0.3, 2.25]],
+    "status": [["ok", "ok"]] * 3,
     "through": {
         "rest": {"largest": 2.0, "at": 0.36, "deepest_wear": 0.5},
         "run_up": {"largest": 5.0, "at": 0.4, "at_highest": 5.0, "deepest_wear": 2.5},
@@ -76,10 +77,19 @@ def test_paragraphs_have_the_numbers_of_the_results():
     row = judged("differs", "reproduced", 0.25)
     text = re.sub(r"\s+", " ", conclusions.text([row], FOUND, LONG))
     assert "(differs; 25 % of the draws; rotor37: reproduced)" in text
-    for told in ("by a factor of 8 (assumed: 170)", "At 0.360", "is 2.00 gaps", "2.25 after 2000"):
+    for told in (
+        "by a factor of 8 (assumed: 170)",
+        "At 0.360",
+        "is 2.00 gaps",
+        "after 2000: 2.25.",
+    ):
         assert told in text
     assert re.search(r"5\.0 gaps and 2\.5 gaps .* 0\.400, where it ends.* 2\.0 and 0\.5", text)
     # a run-up that has passed its peak is not said to grow
     run_up = LONG["through"]["run_up"] | {"at_highest": 4.0}
     long = LONG | {"through": LONG["through"] | {"run_up": run_up}}
     assert "where it ends" not in conclusions.text([row], FOUND, long)
+    # nor has a run an amplitude that ended before
+    ended = {"amplitude": [*LONG["amplitude"][:2], [0.3, None]]}
+    ended["status"] = [*LONG["status"][:2], ["ok", "liner-exhausted"]]
+    assert "after 2000: liner-exhausted." in conclusions.text([row], FOUND, LONG | ended)

@@ -68,8 +68,10 @@ def test_amplitudes_over_the_rounds_and_on_ways_through_the_peak():
     way = {"largest": 4.5, "at": 0.35, "at_highest": 4.0, "deepest_wear": 2.0}
     assert found["through"]["run_up"] == pytest.approx(way)
     text = long.table(found)
-    assert "| after 200 revolutions | 0.10 | 2.50 | 0.00 |" in text
+    assert "| after 200 revolutions | 0.1 | 2.5 | 0 |" in text
     assert "| run-up | 4.50 | 0.350 | 4.00 | 2.00 |" in text
+    found["amplitude"][1][0], found["status"][1][0] = None, "liner-exhausted"
+    assert "| after 200 revolutions | liner-exhausted | 2.5 | 0 |" in long.table(found)
 
 
 @pytest.fixture

@@ -7,7 +7,7 @@ from typing import Any
 
 from workflow.identify.fits import DRAWS, posterior_of
 from workflow.identify.report import factors
-from workflow.markdown import WIDTH
+from workflow.markdown import WIDTH, cell
 from workflow.paper.report import Row, named
 from workflow.paper.verdict import HOLDS
 
@@ -38,7 +38,7 @@ GROUPS = {  # text on the claims of each
 }
 LONG = """\
 **Twenty revolutions are not the end.** At {peak:.3f} f₁(0), the peak of EO 4 of E = 10 after
-{rounds} revolutions, the amplitude is {begin:.2f} gaps then and {end:.2f} after {last}. A run-up
+{rounds} revolutions, the amplitude is {begin:.2f} gaps then; after {last}: {end}. A run-up
 through that peak, each speed from the end of the one before, reaches {up:.1f} gaps and
 {up_wear:.1f} gaps of wear at {up_at:.3f}{ended}; runs from rest reach {rest:.1f} and
 {rest_wear:.1f}. A critical speed from runs from rest is no bound for an engine that accelerates."""
@@ -122,7 +122,7 @@ def _long(numbers: Mapping[str, Any]) -> str:
         last=numbers["rounds"][-1],
         peak=numbers["speeds"][best],
         begin=first[best],
-        end=last[best],
+        end=cell(last[best], numbers["status"][-1][best]),
         up=through["run_up"]["largest"],
         up_at=through["run_up"]["at"],
         up_wear=through["run_up"]["deepest_wear"],

@@ -9,7 +9,7 @@ import xarray as xr
 from simulate.errors.signals import leading_gap, leading_wear
 from simulate.sweeps.dataset import Sweep, scene_of
 from simulate.sweeps.peak import along_order
-from workflow.markdown import records, table as rows_of
+from workflow.markdown import cell, records, table as rows_of
 from workflow.paper.printed import ENGINE_ORDER
 
 SWEEPS = {"rest": "from rest", "run_up": "run-up", "run_down": "run-down", "on_worn": "worn liner"}
@@ -29,6 +29,7 @@ def numbers(
         "speeds": long[0]["speed_over_f1"].values.tolist(),
         "amplitude": [along_order(runs, ENGINE_ORDER).tolist() for runs in long],
         "wear": [_deepest(runs).tolist() for runs in long],
+        "status": [runs["status"].values.tolist() for runs in long],
         "through": {name: _way(runs) for name, runs in through.items()},
     }
 
@@ -50,11 +51,13 @@ def _way(runs: xr.Dataset) -> dict[str, float]:
 
 
 def table(numbers: Mapping[str, Any]) -> str:
-    """Two tables: over the revolutions, and through the peak."""
+    """Two tables: over the revolutions, or how a run ended before, and through the peak."""
     head = ["‖Y‖ / gap at Ω / f₁(0) =", *(f"{speed:.3f}" for speed in numbers["speeds"])]
     lines = [
-        [f"after {rounds} revolutions", *(f"{value:.2f}" for value in along)]
-        for rounds, along in zip(numbers["rounds"], numbers["amplitude"], strict=True)
+        [f"after {rounds} revolutions", *map(cell, along, ends)]
+        for rounds, along, ends in zip(
+            numbers["rounds"], numbers["amplitude"], numbers["status"], strict=True
+        )
     ]
     by_way = [
         {
