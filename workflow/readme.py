@@ -206,7 +206,7 @@ COMPUTED = (
 SETTINGS = {"blade": Blade, "given": GivenMatrices, "scene": Scene}  # block: model of the file
 # kept beside the captions, for the pages
 PICTURES = (
-    "paper/paper-e1/rub-0.350.png",
+    "paper/paper-e1/rub-0.345.png",
     "trade/stages.png",
     "scaling/scaling.png",
 )
