@@ -57,7 +57,13 @@ def through_peak(
     panels[0].set(xscale="log", xlabel="revolutions", ylabel=LABELS["amplitude"], ylim=(0, None))
     panels[0].set_xticks(rounds, rounds)
     panels[0].minorticks_off()
-    panels[0].legend(title=r"$\Omega/f_1(0)$", ncols=2, handlelength=2.2)
+    drawn.legend(
+        handles=panels[0].get_lines(),
+        title=r"(a) $\Omega/f_1(0)$",
+        loc="outside lower left",
+        ncols=3,
+        handlelength=2.2,
+    )
     through = [
         {"way": way, "speed": speed, "amplitude": amplitude, "wear": wear.max()}
         for way, response in zip(WAYS, (rest, run_up, run_down, on_worn), strict=True)
@@ -69,7 +75,7 @@ def through_peak(
     for axes, name in zip(panels[1:], LABELS, strict=True):
         lines.curves(axes, through, "speed", name, "way", looks=[*WAYS.values()])
         axes.set(xlabel=style.SPEED_LABEL, ylabel=LABELS[name], ylim=(0, None))
-    drawn.legend(handles=panels[1].get_lines(), loc="outside lower right", ncols=len(WAYS))
+    drawn.legend(handles=panels[1].get_lines(), loc="outside lower right", ncols=2)
     return drawn
 
 
