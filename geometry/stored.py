@@ -49,10 +49,10 @@ def stored(
     )
 
 
-@dataclass_transform(frozen_default=True, field_specifiers=(stored,))
+@dataclass_transform(frozen_default=True, eq_default=False, field_specifiers=(stored,))
 def frozen[Class: type](of: Class) -> Class:
-    """Decorator of a frozen dataclass of ``stored`` fields."""
-    return dataclass(frozen=True)(of)
+    """Decorator of a frozen dataclass of ``stored`` fields: two are equal if they are one."""
+    return dataclass(frozen=True, eq=False)(of)
 
 
 class Stored:

@@ -1,6 +1,7 @@
 """``rom-<directions>.nc``: the reduced model, the only file of a blade that the simulator needs."""
 
 from collections.abc import Callable
+from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
@@ -17,6 +18,7 @@ from rom.polynomial import evaluate, interpolate
 CODE = ("fem.assemble", "rom.between", "rom.reduce")  # modules that compute its numbers
 SAME_F1 = 1e-6  # relative difference of squares, for round-off
 DIRECTIONS = {"r": "radial", "t": "tangential", "z": "axial"}
+KEPT = 256  # speeds whose modes are kept, of all models: 16 MB with 88 DoFs
 
 
 class RomError(UserError):
@@ -224,8 +226,11 @@ class Rom(Stored):
             raise RomError("the reduced model does not hold the growth of its tip with speed")
         return hats(xi, self.xi) @ evaluate(self.growth, Omega)
 
+    @lru_cache(KEPT)  # noqa: B019  models are few, and leave with their last speed
     def modes(self, Omega: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Natural frequencies omega (n,), rad/s, and modes Phi (n, n), M-normalised, at Omega.
+
+        Those of the last speeds are kept: runs at one speed share them.
 
         Raises
         ------

@@ -8,8 +8,8 @@ another number of blocks, are run only if they are in no part.
 import json
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, fields, replace
-from functools import cached_property, lru_cache, partial
+from dataclasses import dataclass, replace
+from functools import cached_property, partial
 from pathlib import Path
 from time import monotonic
 from typing import Annotated, Any, Self
@@ -45,7 +45,6 @@ from simulate.sweeps.peak import ORDERS, Peak, crossing, peak_among, sidebands_o
 from simulate.sweeps.plausible import doubts, warn_of
 
 SAVED_EVERY = 120.0  # s: lost at most when the process is killed, and one row
-KEPT_MODES = 512  # speeds whose modes are kept: 30 MB with 88 DoFs
 FORMAT = 2
 
 
@@ -85,15 +84,6 @@ COLUMNS = {  # numbers of each run: type, unit, meaning
 ALWAYS = {"speed", "speed_over_f1", "f1", "wear", "wear_mean", "contact_share", "casing_work"}
 
 
-class _KnownModes(Rom):
-    """A reduced model that keeps the modes of the last speeds: rows share them."""
-
-    @cached_property
-    def modes(self) -> Callable[[float], tuple[NDArray[np.float64], NDArray[np.float64]]]:
-        """As ``Rom.modes``."""
-        return lru_cache(KEPT_MODES)(super().modes)
-
-
 @dataclass(frozen=True)
 class Engine:
     """Runs the rows of one design on one reduced model."""
@@ -116,7 +106,6 @@ class Engine:
         geometry.project.errors.SettingsError
             When scenes do not fit the model: one line for each fault, with its rows.
         """
-        rom = _KnownModes(**{field.name: getattr(rom, field.name) for field in fields(rom)})
         choice = choice and replace(choice, runs={})  # the pilot's runs are those of the base
         scenes = [choice.scene(scene) for scene in design.scenes] if choice else design.scenes
         asked = {k for scene in scenes if scene.peaks for k in scene.peaks.orders}
@@ -167,11 +156,13 @@ class Engine:
 
         And the steps that checks of other rows may take, with the ``budget`` of those before.
         """
-        runs, speeds = [], scene.speeds.omega(self.rom.f1).tolist()
+        runs, table, speeds = [], self._table([]), scene.speeds.omega(self.rom.f1).tolist()
         while speeds:
-            cases = (set_up(scene, self.rom, Omega, self.choice) for Omega in speeds)
-            runs += [march_one(case, self.choice) for case in cases]
-            table = self._table(runs)
+            new = [
+                march_one(set_up(scene, self.rom, Omega, self.choice), self.choice)
+                for Omega in speeds
+            ]
+            runs, table = runs + new, np.sort(np.append(table, self._table(new)), order="speed")
             speeds = (
                 halfway(scene.peaks, self.rom.f1, table["speed"], self.peaks_among(table, scene))
                 if scene.peaks
