@@ -6,6 +6,7 @@ from refused import refused
 
 from geometry.project import SettingsError
 from rom.model import Rom
+from rom.modes import ModesError
 from simulate.sweeps.peak import crossing
 from workflow.identify import blades
 from workflow.identify.blades import at_crossing, of_prior, of_shape, stiffening, tip
@@ -95,6 +96,16 @@ def test_a_blade_whose_hub_would_be_out_of_range_is_refused(base, monkeypatch):
     error = refused(SettingsError, at_crossing, short, "short")
     assert error.key == "sections.hub_radius_mm"
     assert stiffening(blades.reduced(short, "short")) < blades.WANTED - 1
+
+
+def test_a_soft_shape_is_not_lost_for_the_highest_speed_of_another_blade(base):
+    """Long and thin at the hub, it is unstable at 650 rad/s: 0.4 of its f1(0) is 150 rad/s."""
+    shape = dict(zip(SHAPE, (216.0, -6.0, -6.0, 2.5, 4.2, 51.0, 38.0), strict=True))
+    soft = of_shape(base, shape)
+    refused(ModesError, blades.reduced, soft, "soft")
+    blade, model = at_crossing(soft, "soft")
+    assert crossing(model, 4) == pytest.approx(0.31, abs=2e-4)
+    assert blade.max_speed_rad_s == pytest.approx(0.402 * model.omega1, rel=1e-3)
 
 
 def test_all_shapes_of_the_priors_are_keys_of_sections(narrow, base):
