@@ -9,6 +9,7 @@ page that has it. Where its numbers have not been computed it stays as it is.
 import re
 import shutil
 import sys
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from textwrap import fill
@@ -39,9 +40,10 @@ PAGES = (
 
 OF_MODEL = 10  # claims on model and method, the first ones
 PARAGRAPH = """\
-Of the paper's {model} statements on its model and method, {held} hold here. Of its {motion}
-statements on how the blade vibrates and the liner wears, {data} served to infer what it leaves
-open; of the other {predicted}, {holding} hold on the blade inferred. Not found there: {differs};
+Of the paper's {model} statements on its model and method, {held} hold here ({silent} without a
+number in the paper). Of its {motion} statements on how the blade vibrates and the liner wears,
+{data} served to infer or set what it leaves open; of the other {predicted}, {holding} hold on the
+blade inferred, {in_kind} of them with other numbers than the paper's. Not found there: {differs};
 undecided, within the error of our runs: {undecided}."""
 OVER_F1 = ("Ω_c / f₁(0)", "Ω_c / crossing")
 OVER_GAP = ("‖Y‖ / gap", "worn depth / gap")
@@ -86,17 +88,21 @@ def _peaks(summary: Mapping[str, Any]) -> Iterator[tuple[Mapping[str, Any], Peak
 
 def verdicts(judged: Sequence[Mapping[str, Any]]) -> str:
     """Three sentences on the paper's claims for a reader who does not know them."""
-    model, motion = judged[:OF_MODEL], judged[OF_MODEL:]
-    predicted = [row for row in motion if row["verdict"] != "calibrated"]
-    held, holding = (sum(row["verdict"] in HOLDS for row in of) for of in (model, predicted))
+    model, motion = (
+        Counter(row["verdict"] for row in of) for of in (judged[:OF_MODEL], judged[OF_MODEL:])
+    )
+    held, holding = (sum(of[verdict] for verdict in HOLDS) for of in (model, motion))
+    data = motion["calibrated"]
     return fill(
         PARAGRAPH.format(
-            model=len(model),
+            model=model.total(),
             held=held,
-            motion=len(motion),
-            data=len(motion) - len(predicted),
-            predicted=len(predicted),
-            holding=holding,
+            silent=model["not comparable"],
+            motion=motion.total(),
+            data=data,
+            predicted=motion.total() - data,
+            holding=holding - data,
+            in_kind=motion["reproduced in kind"],
             **{
                 verdict: ", ".join(
                     f'"{row["says"]}"' for row in judged if row["verdict"] == verdict

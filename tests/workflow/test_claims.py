@@ -92,6 +92,7 @@ AS_IN_THE_PAPER = {
     "stress": {"alternating_MPa": 50.0},
 }
 NOT_REPRODUCED = {
+    "C01": "calibrated",
     "C09": "not comparable",  # pictures
     "C10": "reproduced in kind",  # what the paper says of both crossings cannot hold together
     **dict.fromkeys(("C11", "C12", "C16", "C21"), "calibrated"),
@@ -257,12 +258,21 @@ def test_the_report_names_claims_that_differ_and_causes_that_reverse_them():
     found = by_claim(numbers, causes=causes, shares={"posterior": {"C16": 0.25}})
     rows = [*found.values()]
     assert counts(rows) == (
-        "20 reproduced, 1 reproduced in kind, 1 differs, 3 calibrated, 1 not comparable"
+        "19 reproduced, 1 reproduced in kind, 1 differs, 4 calibrated, 1 not comparable"
     )
     assert re.search(r"- \*\*C12\*\* .* = 0\.9\. .*: thicker\.", markdown(rows))
     for table in (markdown(rows), short(rows)):
         (row,) = [line for line in table.splitlines() if line.startswith(("| C16", "| **C16"))]
         assert "| 25 % |" in row and table.count(" 25 % |") == 1
+
+
+def test_a_choice_under_which_a_peak_is_missing_is_told_and_one_of_other_runs_is_not():
+    numbers = with_change("e10.peaks.4.amplitude", 0.9)
+    causes = {"thinner": numbers, "gone": with_change("e10.peaks.4", None), "other runs": {}}
+    row = by_claim(numbers, causes=causes)["C12"]
+    assert [there["verdict"] for there in row["causes"].values()] == ["differs", "not judged"]
+    said = " None of 1 choices, changed one at a time, reverses it; without a peak to judge: gone."
+    assert said in markdown([row])
 
 
 def test_the_page_shows_every_claim_under_its_figure():

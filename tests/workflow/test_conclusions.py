@@ -22,7 +22,7 @@ FOUND = {
     "prior": prior_numbers(Priors.load(ROOT / "workflow/identify/narrow.yaml")),
     "fits": {
         Fit(K_OF_E1[1], "printed").name: {
-            WITH_ORDER: {"medoid": 0, "ranges": RANGES, "four_places": 0.75}
+            WITH_ORDER: {"medoid": 0, "effective": 75.0, "ranges": RANGES, "four_places": 0.75}
         }
     },
 }
@@ -79,6 +79,7 @@ def test_paragraphs_have_the_numbers_of_the_results():
     assert "(differs; 25 % of the draws; rotor37: reproduced)" in text
     for told in (
         "by a factor of 8 (assumed: 170)",
+        "effective size 75: a share of 90 % has a standard error of 5 %",  # 0.3 (1/50 + 1/75)^(1/2)
         "At 0.360",
         "is 2.00 gaps",
         "after 2000: 2.25.",

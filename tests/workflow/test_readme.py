@@ -138,7 +138,7 @@ def test_the_paragraph_on_the_paper_counts_claims_and_names_those_that_do_not_ho
     given += ["reproduced in kind"] * 4 + ["undecided"]
     judged = [{"verdict": verdict, "says": f"claim {i}"} for i, verdict in enumerate(given)]
     said = verdicts(judged).replace("\n", " ")
-    assert re.findall(r"\d+", said) == ["10", "9", "8", "2", "6", "4", "12", "17"]
+    assert re.findall(r"\d+", said) == ["10", "9", "1", "8", "2", "6", "4", "4", "12", "17"]
     assert said.count(". ") == 2 and said.endswith(
         'undecided, within the error of our runs: "claim 17".'
     )

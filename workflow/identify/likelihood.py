@@ -2,7 +2,8 @@
 
 A datum is the shift of a peak, Omega_c over the linear crossing of f1. The paper's speeds have two
 digits: sigma is half a digit of Omega_c over the crossing, for EO 6 over 0.181 in every reading.
-The rounding of the crossings themselves, common to both coatings, is left out.
+The crossing's rounding, common to both coatings, is not modelled: sigma is above the standard
+deviation of both roundings together.
 """
 
 from dataclasses import dataclass

@@ -16,14 +16,9 @@ NEARLY_ALL, HARDLY_ANY = 0.9, 0.1  # share of the draws
 INTRODUCTION = """\
 Claims of the paper by where they hold: on the scenes' blade with the scenes' values, on {other},
 and in the draws of the posterior that the scenes take, where blade, casing, unit of E and damping
-vary as far as the paper's critical speeds and the order of its coatings allow ({draws} draws: a
-share of {share:.0f} % has a standard error of {error:.0f} %). Claims about model and method have no
-draws."""
-DRAWN = {  # the error is that of the binomial
-    "draws": DRAWS,
-    "share": 100 * NEARLY_ALL,
-    "error": 100 * sqrt(NEARLY_ALL * (1 - NEARLY_ALL) / DRAWS),
-}
+vary as far as the paper's critical speeds and the order of its coatings allow ({draws} draws of a
+posterior of effective size {size:.0f}: a share of {share:.0f} % has a standard error of
+{error:.0f} %). Claims about model and method have no draws."""
 GROUPS = {  # text on the claims of each
     "everywhere": "**Hold on each blade where they were judged**, and in at least 90 % of the"
     " draws:",
@@ -66,13 +61,19 @@ def text(claims: Sequence[Row], fits: Mapping[str, Any], long: Mapping[str, Any]
     long : numbers of long times
     """
     others = named(claims, "other")
-    groups: dict[str, list[str]] = {name: [] for name in GROUPS}
-    for row in claims:
-        if row["verdict"] != "not comparable":
-            groups[_group(row)].append(_line(row))
+    compared = [row for row in claims if row["verdict"] != "not comparable"]
+    groups = {name: [_line(row) for row in compared if _group(row) == name] for name in GROUPS}
+    size = posterior_of(fits)["effective"]
+    introduction = INTRODUCTION.format(
+        other=" and ".join(others) or "no other",
+        draws=DRAWS,
+        size=size,
+        share=100 * NEARLY_ALL,
+        error=100 * sqrt(NEARLY_ALL * (1 - NEARLY_ALL) * (1 / DRAWS + 1 / size)),
+    )
     return "\n\n".join(
         [
-            fill(INTRODUCTION.format(other=" and ".join(others) or "no other", **DRAWN), WIDTH),
+            fill(introduction, WIDTH),
             *(
                 "\n".join([fill(GROUPS[name], WIDTH), "", *lines])
                 for name, lines in groups.items()

@@ -246,7 +246,11 @@ def long_run(bare: Numbers | None, cases: Sequence[Mapping[str, Any]]) -> Number
 
 
 def _growth(amplitude: list[float | None]) -> float | None:
-    """Amplitude of the last window over that after twenty revolutions; None where the run ended."""
+    """Amplitude of the last window over that after twenty revolutions.
+
+    The last is that of 200 revolutions, or before the end of a run that wore through; None where it
+    did so within the first twenty.
+    """
     marched = [value for value in amplitude if value is not None]
     return marched[-1] / marched[1] if len(marched) > 1 else None
 

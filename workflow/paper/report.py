@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from workflow.markdown import Number, records, table
-from workflow.paper.verdict import HOLDS, VERDICTS, Claim, Numbers, judge
+from workflow.paper.verdict import HOLDS, NO_PEAK, VERDICTS, Claim, Numbers, judge
 
 type Row = dict[str, Any]
 
@@ -51,7 +51,7 @@ def _with_others(claim: Claim, row: Row, groups: Mapping[str, Mapping[str, Numbe
         row[key] = {
             name: {part: judged[part] for part in ("ours", "verdict")}
             for name, judged in there.items()
-            if judged["verdict"] != "not judged" or key == "other"
+            if judged["verdict"] != "not judged" or judged["because"] == NO_PEAK or key == "other"
         }
     return row
 
@@ -68,7 +68,7 @@ def markdown(judged: Sequence[Row]) -> str:
         f"# The paper's claims\n\n{counts(judged)}, of {len(judged)}.\n",
         HEAD,
         _claims(judged),
-        "## Claims that differ, and choices of ours that reverse them\n",
+        "## Claims that differ or are undecided, and choices of ours that reverse them\n",
         *(_why(row) for row in judged if row["verdict"] in ("differs", "undecided", "not judged")),
         _causes(judged),
     ]
@@ -101,7 +101,8 @@ HEAD = """\
 Every verdict is computed (`workflow/paper/claims.py`, one function for each claim). Speeds are over
 f1(0), displacements and wear over the gap, displacements and gap at 1/16 of the chord, wear as the
 mean over its first eighth. Behind ± is the largest change under half the step, twice the density of
-rods, and a richer reduced model; differences within it do not count.
+rods, and a richer reduced model; differences within it do not count. Mesh, patches and strips are
+the same throughout: their errors are in the summary.
 `reproduced in kind`: the paper's statement holds, but one of its numbers does not agree.
 `undecided`: the claim may hold or not within our uncertainty. `calibrated`: what it says was a
 datum of ours, and holds, though its numbers may miss the paper's; such numbers are marked. On
@@ -153,20 +154,21 @@ def _turned(row: Row) -> str:
     turned = [n for n, there in row["causes"].items() if there["verdict"] in HOLDS]
     if turned:
         return f" Reversed by: {', '.join(turned)}."
-    tried = len(row["causes"])
-    return f" None of {tried} choices, changed one at a time, reverses it." if tried else ""
+    lacking = [n for n, there in row["causes"].items() if there["verdict"] == "not judged"]
+    but = f"; without a peak to judge: {', '.join(lacking)}" if lacking else ""
+    tried = len(row["causes"]) - len(lacking)
+    return f" None of {tried} choices, changed one at a time, reverses it{but}." if tried else ""
 
 
 def _causes(judged: Sequence[Row]) -> str:
     """Influence of each choice: a table for each set of claims decided by the same runs."""
-    groups: dict[tuple[str, ...], list[Row]] = {}
-    for row in judged:
-        if row["causes"]:
-            groups.setdefault(tuple(row["causes"]), []).append(row)
+    groups = dict.fromkeys(tuple(row["causes"]) for row in judged if row["causes"])
     if not groups:
         return ""
-    title = "\n## Choices of ours, changed one at a time\n"
-    return "\n".join([title, *(_moved(names, rows) for names, rows in groups.items())])
+    tables = (
+        _moved(names, [row for row in judged if tuple(row["causes"]) == names]) for names in groups
+    )
+    return "\n".join(["\n## Choices of ours, changed one at a time\n", *tables])
 
 
 def _moved(names: Sequence[str], rows: Sequence[Row]) -> str:

@@ -14,6 +14,7 @@ VERDICTS = (
     "not comparable",
     "not judged",
 )
+NO_PEAK = "a peak is missing"
 HOLDS = ("reproduced", "reproduced in kind", "calibrated")  # whether numbers agree or not
 
 
@@ -55,9 +56,11 @@ def more(
     return Statement(name, ours, ours - than, resolution, calibrated)
 
 
-def less(name: str, ours: float, than: float, resolution: float = 0.0) -> Statement:
+def less(
+    name: str, ours: float, than: float, resolution: float = 0.0, calibrated: bool = False
+) -> Statement:
     """The statement that ``ours`` is less than ``than``."""
-    return Statement(name, ours, than - ours, resolution)
+    return Statement(name, ours, than - ours, resolution, calibrated)
 
 
 def equal(name: str, ours: float, to: float, calibrated: bool = False) -> Statement:
@@ -175,11 +178,13 @@ def _label(judged: Value | Statement) -> str:
 
 
 def _finding(claim: Claim, numbers: Numbers) -> tuple[Finding, str]:
-    """Our results for a claim, and the missing part, if any: one that was not run, or a peak."""
+    """Our results for a claim, and what is missing, if any: a part that was not run, or a peak."""
     try:
         return claim.find(numbers), ""
-    except (KeyError, TypeError) as missing:
+    except KeyError as missing:
         return Finding(), f"missing: {missing}"
+    except TypeError:
+        return Finding(), NO_PEAK
 
 
 def _failed(finding: Finding, uncertainty: Mapping[str, float]) -> list[str]:
