@@ -82,7 +82,7 @@ def _range(distribution: Mapping[str, Any], name: str) -> str:
     """Median of a parameter, with 5 and 95 %, in a posterior or in the prior."""
     if distribution["ranges"] is None:
         return UNKNOWN
-    low, median, high = (f"{value:.2g}" for value in distribution["ranges"][name])
+    low, median, high = (f"{value:.3g}" for value in distribution["ranges"][name])
     return f"{median} ({low} to {high})"
 
 
