@@ -17,7 +17,7 @@ from workflow.identify.table import joined
 
 LEVELS = (0.05, 0.5, 0.95)  # quantiles of the parameters
 ENOUGH = 200  # effective size below which ranges are rough
-DRAWS, SEED = 50, 3  # of a distribution, for the claims at its points
+DRAWS, SEED = 100, 3  # of a distribution, for the claims at its points
 K_TAKEN = 4.55  # of the coating with E = 1, in the fit whose medoid the scenes of the paper take
 TWO_NEAREST = -0.25  # `fourth_over_second`: below, the casing is nearest at four places, not two
 
