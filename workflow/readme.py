@@ -40,8 +40,8 @@ PAGES = (
 
 OF_MODEL = 10  # claims on model and method, the first ones
 PARAGRAPH = """\
-Of the paper's {model} statements on its model and method, {held} hold here ({silent} without a
-number in the paper). Of its {motion} statements on how the blade vibrates and the liner wears,
+Of the paper's {model} statements on its model and method, {held} hold here; of {silent} the
+paper gives no number. Of its {motion} statements on how the blade vibrates and the liner wears,
 {data} served to infer or set what it leaves open; of the other {predicted}, {holding} hold on the
 blade inferred, {in_kind} of them with other numbers than the paper's. Not found there: {differs};
 undecided, within the error of our runs: {undecided}."""

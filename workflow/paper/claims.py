@@ -431,7 +431,7 @@ CLAIMS = (
     Claim("C14", "7.1, Fig. 11b", "k = 8, 10, 12, 14 visible in the wear map", "4 of 4", "fig11b",
           superharmonics),
     Claim("C15", "7.1, Fig. 11", "two worn lobes away from resonance, k at that of engine order k; "
-          "contact stays at its angles", "2, 4, 6", "fig11b", lobes),
+          "contact does not move", "2, 4, 6", "fig11b", lobes),
     Claim("C16", "Fig. 12", "at k = 4 the less ductile coating is worn more", "> 1", "fig12",
           deeper_wear),
     Claim("C17", "Fig. 13a", "‖Y‖ over (E, K) is bell-shaped, worst at (10, 4.55)",
@@ -451,6 +451,6 @@ CLAIMS = (
     Claim("C24", "7", "stress in the blade at any time step", "-", "stress-paper-e10", stress),
     Claim("C25", "8", "a coating may give higher vibration than the bare casing", "> 1", "worst",
           above_bare_casing),
-    Claim("C26", "7.2.1", "tendencies are more dramatic over more revolutions", "> 1", "worst",
+    Claim("C26", "7.2.1", "the vibration may grow further over more revolutions", "> 1", "worst",
           growth),
 )  # fmt: skip
