@@ -79,7 +79,7 @@ def test_paragraphs_have_the_numbers_of_the_results():
     assert "(differs; 25 % of the draws; rotor37: reproduced)" in text
     for told in (
         "by a factor of 8 (assumed: 170)",
-        "effective size 75: a share of 90 % has a standard error of 5 %",  # 0.3 (1/100 + 1/75)^(1/2)
+        "effective size 75: a share of 90 % has a standard error of 5 %",  # by both
         "At 0.360",
         "is 2.00 gaps",
         "after 2000: 2.25.",
