@@ -44,9 +44,9 @@ def _rounded(name: str, ours: float, paper: float, **more: Any) -> Value:
 
 
 def size(numbers: Numbers) -> Finding:
-    """C01: the tolerance of the reduction is that which gives the paper's n, on any blade.
+    """C01: the tolerance of the reduction is set for the paper's n.
 
-    At most 90 are 8 nodes with 3 directions at 3 speeds, and 6 modes at each.
+    That n is at most 90 is no result: 8 nodes in 3 directions and 6 modes, at 3 speeds.
     """
     n = numbers["model"]["n"]
     at_most = less("n, at most 90", n, 90.5, calibrated=True)
