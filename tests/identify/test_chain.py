@@ -187,15 +187,17 @@ def test_shares_count_what_holds_and_what_holds_together():
     """Of the medoid, and of four draws of three points."""
     taken = {"medoid": 2, "draws": [5, 6, 6, 7], "effective": 3.0}
     fits = {"served": "printed", "fits": {Fit(K_TAKEN, "printed").name: {WITH_ORDER: taken}}}
+    fits["values"] = {"span_mm": [10.0 * point for point in range(8)]}
     measured = [{"2": draw(2, 2), "5": draw(2, 2)}, {"6": draw(2, 0.5), "7": draw(0.5, 0.5)}]
     of = shares.numbers(fits, measured)
-    assert of["draws"] == 4 and of["most at once"] == 2 and of["effective"] == 3
+    assert of["draws"] == 4 and of["effective"] == 3
+    assert of["best"] == 0 and of["values"] == {"span_mm": 50}  # both hold at the first, 5
+    assert {*JUDGED} - {*of["missed"]} == {"C12", "C16"}
     assert (of["medoid"]["C16"], of["medoid"]["C25"]) == ("calibrated", "not judged")
     assert {"C12": 0.75, "C16": 0.25, "C20": 0}.items() <= of["holds"].items()
     assert of["together"]["C16"]["C12"] == 1 and of["together"]["C12"]["C16"] == 1 / 3
     assert np.isnan(of["together"]["C20"]["C12"])
     assert of["not judged"]["C25"] == 1 and of["not judged"]["C12"] == 0
     said = report.shares(of)
-    assert (
-        "| C16 |" in said and "25 %" in said and "effective size of what is drawn from: 3" in said
-    )
+    assert "| C16 |" in said and "25 %" in said
+    assert "Effective size of what is drawn from: 3." in said and "C26: `span_mm` 50." in said

@@ -87,23 +87,19 @@ def _range(distribution: Mapping[str, Any], name: str) -> str:
 
 
 def shares(numbers: Mapping[str, Any]) -> str:
-    """Verdict of each claim at the medoid, and the share of the draws at which it holds."""
+    """Verdict of each claim at the medoid, shares of the draws, and the draw at which most hold."""
     says = {claim.id: claim.says for claim in CLAIMS}
     rows = [
         {
             "": claim,
             "the paper says": says[claim],
             "at the medoid": numbers["medoid"][claim],
-            f"holds in {numbers['draws']} draws": _share(numbers, claim),
+            f"holds in {numbers['draws']} draws": f"{100 * numbers['holds'][claim]:.0f} %",
+            "not judged": f"{100 * numbers['not judged'][claim]:.0f} %",
         }
         for claim in JUDGED
     ]
-    most = f"most of these {len(JUDGED)} at one draw: {numbers['most at once']}"
-    size = f"effective size of what is drawn from: {numbers['effective']:.0f}"
-    return f"{records(rows)}\n\n{most.capitalize()}; {size}."
-
-
-def _share(shares: Mapping[str, Any], claim: str) -> str:
-    unknown = shares["not judged"][claim]
-    held = f"{100 * shares['holds'][claim]:.0f} %"
-    return held + f" ({100 * unknown:.0f} % not judged)" * (unknown > 0)
+    values = ", ".join(f"`{name}` {value:.3g}" for name, value in numbers["values"].items())
+    size = f"Effective size of what is drawn from: {numbers['effective']:.0f}."
+    best = f"At the draw at which most hold, all do but {', '.join(numbers['missed'])}: {values}."
+    return f"{records(rows)}\n\n{size} {best}"
