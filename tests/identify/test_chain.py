@@ -185,13 +185,13 @@ def draw(ratio, deeper):
 
 def test_shares_count_what_holds_and_what_holds_together():
     """Of the medoid, and of four draws of three points."""
-    taken = {"medoid": 2, "draws": [5, 6, 6, 7], "effective": 3.0}
+    taken = {"medoid": 2, "draws": [6, 5, 6, 7], "effective": 3.0}
     fits = {"served": "printed", "fits": {Fit(K_TAKEN, "printed").name: {WITH_ORDER: taken}}}
     fits["values"] = {"span_mm": [10.0 * point for point in range(8)]}
     measured = [{"2": draw(2, 2), "5": draw(2, 2)}, {"6": draw(2, 0.5), "7": draw(0.5, 0.5)}]
     of = shares.numbers(fits, measured)
     assert of["draws"] == 4 and of["effective"] == 3
-    assert of["best"] == 0 and of["values"] == {"span_mm": 50}  # both hold at the first, 5
+    assert of["best"] == 1 and of["values"] == {"span_mm": 50}  # both hold at the second, 5
     assert {*JUDGED} - {*of["missed"]} == {"C12", "C16"}
     assert (of["medoid"]["C16"], of["medoid"]["C25"]) == ("calibrated", "not judged")
     assert {"C12": 0.75, "C16": 0.25, "C20": 0}.items() <= of["holds"].items()

@@ -100,6 +100,9 @@ def shares(numbers: Mapping[str, Any]) -> str:
         for claim in JUDGED
     ]
     values = ", ".join(f"`{name}` {value:.3g}" for name, value in numbers["values"].items())
-    size = f"Effective size of what is drawn from: {numbers['effective']:.0f}."
-    best = f"At the draw at which most hold, all do but {', '.join(numbers['missed'])}: {values}."
-    return f"{records(rows)}\n\n{size} {best}"
+    missed = ", ".join(numbers["missed"]) or "none"
+    best = f"At the draw at which most hold, all do but {missed}: {values}."
+    return (
+        f"{records(rows)}\n\n"
+        f"Effective size of what is drawn from: {numbers['effective']:.0f}. {best}"
+    )
