@@ -1,6 +1,6 @@
 """The trade by stage of an earlier version, on this machine: workflow/study/before.json.
 
-./run python tests/benchmarks/before.py: some 30 min of one core. Then `./run snakemake trade` on
+./run python tests/benchmarks/before.py: some 17 min of one core. Then `./run snakemake trade` on
 the same machine, for a table and a figure of both versions. It needs the history of the repository.
 """
 
