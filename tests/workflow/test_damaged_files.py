@@ -104,7 +104,7 @@ def _write_choice_and_mesh_error(blade: Path, rom: Rom) -> None:
 def _write_tables(blade: Path, rom: Rom) -> None:
     """The tables of a design of two rows."""
     (blade / "mine.csv").write_text("liner.law.K\n0.3\n0.45\n")
-    base = scene(blade="reference", rounds=1, design="mine.csv", speeds={"over_f1": [0.3, 0.32]})
+    base = scene(blade="paper", rounds=1, design="mine.csv", speeds={"over_f1": [0.3, 0.32]})
     engine = Engine.of(Design.of(base, blade / "mine.yaml"), rom)
     runs = march_block(engine, blade / "parts")
     design_runs.save(runs, blade / "runs.nc")
