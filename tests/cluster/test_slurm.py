@@ -13,7 +13,7 @@ from test_kills import require_same_models, require_same_sweep
 
 BLADE = "results/paper"
 SWEEP = f"{BLADE}/paper-e1/sweep.nc"
-BLOCKS = 3
+BLOCKS = 4  # as two, the local ones, they check the same speeds
 DEADLINE_S = 480.0
 POLLED = ("--slurm-init-seconds-before-status-checks", "1")  # its jobs are short
 
@@ -69,7 +69,7 @@ def test_a_sweep_through_slurm_survives_a_killed_job_and_has_the_bits_of_a_local
     assert f"The individual task IDs are 1-{BLOCKS}." in text
     assert f"SLURM-job '{task}' failed, SLURM status is: 'CANCELLED'" in text
     assert text.count("Trying to restart job") == 1
-    assert not re.search(r"Job \d+ has been submitted.*rule_check_", text)  # those are local
+    assert not re.search(r"Job \d+ has been submitted.*rule_check_scene", text)  # those are local
     again = re.search(r"with SLURM jobid (\d+) \(log: \S+/rule_sweep_block/", text)[1]
     memory = dict(map(str.split, slurm.ask("squeue", "-aht", "all", "-o", "%i %m").splitlines()))
     assert memory[again] == "4000M" and memory[task] == "2001M"  # 1 MB for the array's commands
