@@ -103,15 +103,15 @@ def two_digits(value: float) -> str:
     return f"{value:.0f}" if value >= 10 else f"{value:.2g}"
 
 
-def percent(share: float | None, least: float = 0.0) -> str:
+def percent(share: float | None) -> str:
     """``share`` in per cent with two digits, from 100 % on without decimals; a dash for None, nan.
 
-    >>> percent(0.0567), percent(1e-5, least=1e-4)
-    ('5.7 %', '< 0.01 %')
+    >>> percent(0.0567), percent(None)
+    ('5.7 %', '-')
     """
     if share is None or isnan(share):
         return "-"
-    return f"{two_digits(100 * share)} %" if share >= least else f"< {100 * least:g} %"
+    return f"{two_digits(100 * share)} %"
 
 
 def change(share: float) -> str:

@@ -6,6 +6,7 @@ A block begins with ``<!-- name: ... -->`` and ends with ``<!-- /name -->``. It 
 page that has it. Where its numbers have not been computed it stays as it is.
 """
 
+import csv
 import re
 import shutil
 import sys
@@ -21,13 +22,12 @@ from geometry.blade import Blade
 from geometry.given import GivenMatrices
 from geometry.project import UserError, command, read_json, write_whole
 from simulate.scene import Scene
-from workflow.identify import report as identified
 from workflow.markdown import WIDTH, change, table, two_digits
 from workflow.paper import long, report
 from workflow.paper.claims import COATING
 from workflow.paper.printed import SHIFTS
 from workflow.paper.verdict import HOLDS
-from workflow.study import bases, interface, mesh, rotor37, scaling, stability, stages, trade_table
+from workflow.study import interface, mesh, rotor37, stability, trade_table
 from workflow.summary import PeakRow, about, crossings_and_ends, over_gap, terminal
 
 FOLDERS = ("geometry", "fem", "rom", "simulate", "workflow", "profiles", "tests")
@@ -173,8 +173,15 @@ def _farthest(frequencies: Sequence[float], limit: Sequence[float]) -> str:
     )
 
 
+def kept(text: str) -> str:
+    """A table of CSV, below the line that names the commit and the command that made it."""
+    head, *rows = csv.reader(text.splitlines()[1:])
+    return table(head, rows)
+
+
 # block, file that holds its numbers, function that writes them
 TRADE = "results/experiments/trade/table.json"
+KEPT = "workflow/study/kept"  # last tables of studies that have left the project
 COMPUTED = (
     ("found", "results/summary.json", coatings),
     ("printed", "results/summary.json", printed),
@@ -182,16 +189,10 @@ COMPUTED = (
     ("summary", "results/summary.json", scenes),
     ("claims", "results/paper/claims.json", report.short),
     ("conclusions", "results/paper/conclusions.md", str),
-    ("fits", "results/identify/narrow/fits.json", identified.fits),
-    ("ranges", "results/identify/narrow/fits.json", identified.ranges),
-    ("shares", "results/identify/narrow/shares.json", identified.shares),
-    ("wide_fits", "results/identify/wide/fits.json", identified.fits),
-    ("wide_ranges", "results/identify/wide/fits.json", identified.ranges),
-    ("wide_shares", "results/identify/wide/shares.json", identified.shares),
     ("cost", "results/paper/cost.md", str),
     ("long", "results/paper/long-times.json", long.table),
     ("mesh", "results/experiments/mesh/table.json", mesh.table),
-    ("bases", "results/experiments/bases/table.json", bases.table),
+    ("bases", f"{KEPT}/bases.csv", kept),
     ("rotor37", "results/experiments/frequencies/table.json", rotor37.prestress_table),
     ("levels", TRADE, trade_table.by_level),
     ("converges", "results/interface/interface.json", interface.results),
@@ -199,23 +200,19 @@ COMPUTED = (
     ("requirements", TRADE, trade_table.requirements),
     ("rounds", TRADE, trade_table.fewer_rounds),
     ("speeds", TRADE, trade_table.fewer_speeds),
-    ("stages", "results/experiments/trade/stages.json", stages.table),
-    ("bars", "results/experiments/bars/table.md", str),
+    ("stages", f"{KEPT}/stages.csv", kept),
+    ("bars", f"{KEPT}/bars.csv", kept),
     ("limits", "results/figures/stability-map.json", stability.limits),
     ("extremes", "results/figures/stability-matrix.json", stability.extremes),
     ("sweeps", "results/figures/stability-sweeps.json", stability.sweeps),
     ("cuts", "results/experiments/frequencies/table.json", rotor37.edge_cuts_table),
     ("inputs", "tests/inputs/counts.json", inputs),
     ("bricks", "tests/fem/bricks.json", bricks),
-    ("growth", "results/scaling/scaling.json", scaling.table),
+    ("growth", f"{KEPT}/scaling.csv", kept),
 )
 SETTINGS = {"blade": Blade, "given": GivenMatrices, "scene": Scene}  # block: model of the file
 # kept beside the captions, for the pages
-PICTURES = (
-    "paper/paper-e1/rub-0.345.png",
-    "trade/stages.png",
-    "scaling/scaling.png",
-)
+PICTURES = ("paper/paper-e1/rub-0.345.png",)
 BLOCK = re.compile(
     r"(?P<begin><!-- (?P<name>\w+): [^\n]*-->\n).*?(?P<end><!-- /(?P=name) -->)", re.DOTALL
 )

@@ -13,7 +13,6 @@ from geometry.project import Settings, SettingsError, check_settings
 from geometry.project.settings import _listed
 from simulate.scene.design import Design  # noqa: F401  with all settings of scenes
 from workflow.config import Config  # noqa: F401
-from workflow.identify.priors import Priors  # noqa: F401
 
 PACKAGES = ("geometry", "simulate", "workflow")
 REFERENCE = (Path(__file__).parents[2] / "workflow/blades/reference.yaml").read_text()

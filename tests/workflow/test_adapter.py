@@ -11,7 +11,7 @@ from projects import ROOT
 
 from geometry.project import UserError, write_json
 from workflow.arguments import argument
-from workflow.identify.priors import Prior
+from workflow.config import Config
 from workflow.paper.measure import Numbers
 
 
@@ -30,7 +30,7 @@ from workflow.paper.measure import Numbers
         (list[float] | None, [1.0, 2.0], [1.0, 2.0]),
         (Numbers | None, [], None),  # no file
         (Annotated[int, len] | None, "a.json", 6),
-        (Prior, {"between": [1, 2], "why": ""}, Prior(between=[1, 2], why="")),
+        (Config, {"scenes": ["a"], "blocks": 2}, Config(scenes=["a"], blocks=2)),
     ],
 )
 def test_an_argument_is_what_its_type_asks_for(kind, given, expected, tmp_path, monkeypatch):

@@ -7,11 +7,9 @@ import pytest
 
 from geometry.hats import hats
 from geometry.project import read_mapping, write_json
-from rom.check import check
-from rom.full_model import solve
 from rom.modes import ShiftInvert
 from workflow import readme
-from workflow.study import bases, frequencies, mesh
+from workflow.study import frequencies, mesh
 from workflow.study.rotor37 import crossing, edge_cuts_table, prestress_table
 
 ROOT = Path(__file__).parents[2]
@@ -116,26 +114,6 @@ def test_frequencies_and_deflection_of_a_blade(coarse_blade, coarse_files, coars
     node = np.linalg.norm(fom.coordinates - place, axis=1).argmin()
     of_node = np.linalg.norm(deflection.reshape(-1, 3)[node])
     assert found["tip_deflection_m"] == pytest.approx(of_node, rel=0.05)
-
-
-def test_rows_of_bases_have_their_errors(
-    coarse_blade, coarse_matrices, coarse_rom, paper_blade, paper_matrices, paper_reduced, tmp_path
-):
-    rows = []
-    for blade, fom, rom in (
-        (paper_blade, paper_matrices, paper_reduced[0]),
-        (coarse_blade, coarse_matrices, coarse_rom),
-    ):
-        check(rom, solve(fom, fom.states())).save(tmp_path / "check.nc")
-        rows.append({"numbers": bases.numbers(blade, rom, tmp_path / "check.nc")})
-    paper, own = (row["numbers"] for row in rows)
-    assert paper["n"] == paper_reduced[0].n == 86
-    assert paper["basis"]["kind"] == "paper" and own["basis"]["kind"] == "enriched"
-    assert list(own["compliance_error_percent"]) == own["directions"] == [*coarse_rom.directions]
-    # at speeds of the basis the modes of the paper's err that stop at eta = 6, ours do not
-    assert paper["frequency_error_percent"] > 100 * own["frequency_error_percent"]
-    assert paper["frequency_error_percent"] >= paper["frequency_error_7_percent"]
-    assert len(bases.table(rows).splitlines()) == 2 + len(rows)
 
 
 def test_the_crossing_is_that_of_a_stiffening_beam():

@@ -2,13 +2,16 @@
 
 import re
 
+import numpy as np
+import pandas as pd
 import pytest
 from made_sweeps import ROOT
 
-from workflow.identify.fits import prior_numbers
-from workflow.identify.likelihood import K_OF_E1, WITH_ORDER, Fit
-from workflow.identify.priors import Priors
+from geometry.blade import Blade
+from geometry.project import read_json
 from workflow.paper import conclusions
+from workflow.paper.claims import CLAIMS
+from workflow.paper.conclusions import DATA, FIT
 
 DRAWN = "narrow prior"
 RANGES = {
@@ -17,14 +20,11 @@ RANGES = {
     "damping_ratio": (0.001, 0.002, 0.02),
     "constant_over_second": (0.1, 0.5, 0.9),
 }
-FOUND = {
-    "served": "printed",
-    "prior": prior_numbers(Priors.load(ROOT / "workflow/identify/narrow.yaml")),
-    "fits": {
-        Fit(K_OF_E1[1], "printed").name: {
-            WITH_ORDER: {"medoid": 0, "effective": 75.0, "ranges": RANGES, "four_places": 0.75}
-        }
-    },
+IDENTIFIED = {
+    name: read_json(ROOT / f"workflow/paper/identified/{name}.json") for name in ("narrow", "wide")
+}
+FOUND = IDENTIFIED["narrow"] | {
+    "fits": {FIT: {DATA: {"effective": 75.0, "ranges": RANGES, "four_places": 0.75}}}
 }
 LONG = {
     "rounds": [20, 200, 2000],
@@ -94,3 +94,39 @@ def test_paragraphs_have_the_numbers_of_the_results():
     ended = {"amplitude": [*LONG["amplitude"][:2], [0.3, None]]}
     ended["status"] = [*LONG["status"][:2], ["ok", "liner-exhausted"]]
     assert "after 2000: liner-exhausted." in conclusions.text([row], FOUND, LONG | ended)
+
+
+@pytest.mark.parametrize("name", IDENTIFIED)
+def test_what_the_identification_found_is_whole(name):
+    """Of claims that are there; ranges in order, in those of the prior; whole numbers of draws."""
+    found = IDENTIFIED[name]
+    assert found["commit"] and found["command"]
+    shares, ids = found["shares"], {claim.id for claim in CLAIMS}
+    assert {*shares["holds"]} == {*shares["medoid"]} <= ids
+    for share in shares["holds"].values():
+        assert 0 <= share <= 1 and round(share * shares["draws"], 9).is_integer()
+    prior = found["prior"]["ranges"]
+    for data in ("shifts", DATA):
+        taken = found["fits"][FIT][data]["ranges"]
+        assert {*taken} == {*prior} == {*shares["best"]["values"]}
+        for parameter, (low, median, high) in taken.items():
+            outer = np.diff(prior[parameter][::2])  # 5 to 95 % of a range
+            assert low <= median <= high and high - low < 1.2 * outer, parameter
+
+
+def test_the_draws_are_those_of_the_posterior_of_which_the_scenes_take_a_blade():
+    """Quantiles have their ranks within three standard errors of as many independent draws."""
+    file = ROOT / "workflow/paper/identified/narrow-draws.csv"
+    drawn = pd.read_csv(file, comment="#")
+    found = IDENTIFIED["narrow"]
+    assert len(drawn) == found["shares"]["draws"]
+    for name, quantiles in found["fits"][FIT][DATA]["ranges"].items():
+        for level, value in zip(found["levels"], quantiles, strict=True):
+            off = abs(value) * 1e-5  # six digits; many draws are of one blade
+            below, upto = (np.mean(drawn[name] < value + side * off) for side in (-1, 1))
+            error = 3 * np.sqrt(level * (1 - level) / len(drawn))
+            assert below - error <= level <= upto + error, name
+    taken = Blade.load(ROOT / "workflow/blades/paper.yaml").sections
+    names = ["span_mm", "tip_lean_tangential_mm", "tip_lean_axial_mm", "hub_radius_mm"]
+    off = drawn[names] / [getattr(taken, name) for name in names] - 1
+    assert abs(off).max(axis=1).min() < 5e-3  # three digits

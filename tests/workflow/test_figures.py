@@ -33,10 +33,8 @@ from test_long_times import (
     cases,  # noqa: F401
     files as long_files,  # noqa: F401
 )
-from test_scaling import study as cost  # noqa: F401
 from test_spectrogram import files as spectrogram_files  # noqa: F401
 from test_stability_studies import ENGAGED
-from test_stages import study as by_stage  # noqa: F401
 from tidy import faults
 
 from geometry.blade import Blade
@@ -61,23 +59,19 @@ from workflow.figures import (
     fig05_laws,
     fig09_modes,
     haigh,
-    identification,
     loads,
     long_times,
     resolution,
     spectra,
-    stages,
     stress,
     style,
     wear,
 )
 from workflow.figures.marks import speed_text
 from workflow.figures.response import Response
-from workflow.identify.likelihood import FITS, SHIFTS, WITH_ORDER
-from workflow.identify.priors import NAMES, Priors, sobol
 from workflow.jobs.figure import origins, read
 from workflow.paper.measure import coating
-from workflow.study import mesh, scaling, stability
+from workflow.study import mesh, stability
 
 CROSSING_4 = 1 / np.sqrt(16 - STIFFENING)  # f1^2 = 1 + 5.6 Omega^2 meets k^2 Omega^2
 SPEEDS = np.round(np.arange(0.02, 0.401, 0.01), 12)
@@ -85,7 +79,6 @@ FAILED = 25  # of SPEEDS: 0.27
 SENSITIVE = [31, 32, 34]  # of SPEEDS: 0.33, 0.34 (the peak of eo(4)) and 0.36
 PEAK_4, PEAK_6 = 0.34, 0.2
 RODS = 512
-PRIORS = Priors.load(ROOT / "workflow/identify/narrow.yaml")
 APART = np.array([0.5, 0.51, 1.0])
 
 
@@ -328,24 +321,6 @@ def design_rows():
     return xr.Dataset(variables, {"row": [1, 2, 3], "order": [4, 6]}, {"f1_Hz": F1})
 
 
-@pytest.fixture
-def fits():
-    """Weights of the upper half of the first parameter: density 2 there, 0 below; others 1."""
-    points = sobol(512, len(NAMES), 1)
-    upper = (points[:, 0] > 0.5) / 256
-    of = {"weights": upper.tolist(), "effective": 256.0, "ranges": {}}
-    few = {"weights": upper.tolist(), "effective": 43.2, "ranges": None}
-    return {
-        "served": "printed",
-        "values": {name: values.tolist() for name, values in PRIORS.values(points).items()},
-        "fits": {fit.name: {SHIFTS: of, WITH_ORDER: few} for fit in FITS},
-    }
-
-
-NEVER = {"C12": float("nan"), "C16": float("nan")}
-SHARES = {"holds": {"C12": 0.5, "C16": 0.0}, "together": {"C12": {"C16": 0.25}, "C16": NEVER}}
-
-
 def stressed(**fields):
     """A bar of one by one by three, x the long side, its tip the contact, with ``stress.vtu``'s."""
     bar = pv.ImageData(dimensions=(4, 2, 2)).cast_to_unstructured_grid()
@@ -398,8 +373,6 @@ FIGURES = {
     "fig13": lambda get: coatings.peaks(get("grid")),
     "fig13-k6": lambda get: coatings.peaks(get("grid"), order=6),
     "fig16": lambda get: spectra.over_time(*read(spectra, get("spectrogram_files"), "over_time")),
-    "identified": lambda get: identification.posterior(get("fits"), PRIORS),
-    "together": lambda get: identification.together(SHARES),
     "modes": lambda get: fig09_modes.draw(*get("modes")),
     "gap": lambda get: clearance.gap(get("rest")),
     "haigh": lambda get: haigh.draw(*STRESSES),
@@ -410,9 +383,7 @@ FIGURES = {
     "design": lambda get: designs.draw(get("design_rows")),
     "sensitivity": lambda get: designs.sensitivity(*read(designs, get("sobol_rows"))),
     "stress": lambda get: stress.draw(*stressed(at_3133=at_one_side, at_5400=at_the_tip)),
-    "stages": lambda get: stages.draw(get("by_stage")),
     "mesh": lambda get: mesh.draw(get("of_meshes")),
-    "cost": lambda get: scaling.draw(get("cost")),
     "stability": lambda get: stability.draw({"engaged": ENGAGED, "intermittent": INTERMITTENT}),
     "worst": lambda get: long_times.growth(*read(long_times, get("cases"), "growth")),
 }
@@ -714,26 +685,6 @@ NUMBERS = {  # by figure and what is shown: the numbers that are drawn, and what
     ("mesh", "errors of ten modes and the tip, over those made"): (
         lambda drawn: np.round(at_own_size(drawn.axes[0]) / [*100 * SLOPE, 0.02], 2),
         [1] * 11,
-    ),
-    ("cost", "lines in each panel"): (
-        lambda drawn: [len(axes.lines) for axes in drawn.axes],
-        [4, 3, 4] * 2,
-    ),
-    ("identified", "densities of the first parameter"): (
-        lambda drawn: [np.round(of.get_data()[0]) for of in drawn.axes[0].patches],
-        [[0] * 5 + [2] * 5] * 3,
-    ),
-    ("identified", "range of the unit in GPa"): (
-        lambda drawn: drawn.axes[7].patches[0].get_data()[1][[0, -1]],
-        [0.1, 30],
-    ),
-    ("identified", "densities of the others"): (
-        lambda drawn: [np.round(axes.patches[0].get_data()[0]) for axes in drawn.axes[1:5]],
-        [[1] * 10] * 4,
-    ),
-    ("together", "shares in %"): (
-        lambda drawn: drawn.axes[0].images[0].get_array().filled(-1),
-        [[50, 25], [-1, 0]],
     ),
     ("gap", "gaps running and at rest"): (
         lambda drawn: heights(drawn.axes[0]),

@@ -100,7 +100,7 @@ def test_sources_are_found_beside_a_users_module_of_the_name_of_a_package(tmp_pa
 # Targets that together need a job of every rule.
 TARGETS = [
     *("all", "paper", "paper_beyond", "paper_uncertainty", "paper_causes", "paper_rotor37"),
-    *("identify", "study_mesh", "study_bases", "study_rotor37", "stability", "trade", "scaling"),
+    *("study_mesh", "study_rotor37", "stability", "trade"),
     *(f"results/paper/{name}" for name in ("one-percent/sweep.nc", "paper-e1/rub-0.3.gif")),
     *(f"results/paper/five-factors/{name}" for name in ("row-1.nc", "design.csv")),
     *(f"results/figures/{name}-foreign.png" for name in ("spectra", "wear")),
@@ -220,8 +220,6 @@ APART = {  # module of a job, and what no change of may run it again
     ),
     "workflow.jobs.sweep": ("fem/", "simulate/sweeps/peak_results.py", "simulate/scene/sobol.py"),
     "workflow.paper.grid": ("workflow/paper/claims.py", "workflow/experiment/"),
-    "workflow.identify.points": ("workflow/paper/claims.py", "workflow/identify/fits.py"),
-    "workflow.identify.measured": ("workflow/paper/claims.py", "workflow/identify/fits.py"),
 }
 
 

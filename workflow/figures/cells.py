@@ -29,11 +29,8 @@ def draw(
     y: str,
     value: str,
     *,
-    text: str = "",
-    bold: str = "",
     panel: str = "",
     labels: Labels = NO_LABELS,
-    limits: tuple[float, float | None] | None = None,
     log: bool | str = False,
 ) -> Figure:
     """Draw the records in panels, two beside one another, with one colour bar below.
@@ -42,26 +39,21 @@ def draw(
     ----------
     records : plain values by column, a record for each cell; others are white.
     x, y : columns that name columns and rows of the matrix, in the order in which they occur.
-    value : column of the number that colours a cell; white where it is None.
-    text : column of the text in a cell; without it the number.
-    bold : column of whether the text is bold.
+    value : column of the number that stands in a cell and colours it; white where it is None.
     panel : column; a panel for each of its values, with all columns and rows.
     labels : text for a column or for one of its values: of ``value`` at the colour
         bar, of ``x`` and ``y`` at the axes. Values without one are written as they are.
-    limits : of the colours; without them to the largest number from the least one, on a linear
-        scale from 0 if that is less.
-    log : whether the scale of the colours is logarithmic; any text says so.
+    log : whether the scale of the colours, from the least to the largest number, is logarithmic;
+        any text says so. A linear scale begins at 0 where no number is below.
     """
     frame = pd.DataFrame(records).copy()
     for name in (x, y):  # where a column has no value, its name is empty
         frame[name] = frame[name].astype(object).where(frame[name].notna(), "")
     panels, columns, rows = (split(frame, column) for column in (panel, x, y))
-    lines = 1 + frame[text].str.count("\n").max() if text else 1
-    if limits is None and not log:
-        limits = min(0.0, frame[value].min()), None
-    height = FOOTER + ceil(len(panels) / 2) * (HEADER + LINE * lines * len(rows))
+    limits = (None, None) if log else (min(0.0, frame[value].min()), None)
+    height = FOOTER + ceil(len(panels) / 2) * (HEADER + LINE * len(rows))
     drawn = style.panels(len(panels), style.DOUBLE, height)
-    scale = (LogNorm if log else Normalize)(*limits or (None, None))
+    scale = (LogNorm if log else Normalize)(*limits)
     for axes, (name, these) in zip(drawn.axes, panels.items(), strict=True):
         image = matrix(
             axes,
@@ -71,8 +63,6 @@ def draw(
             value,
             [*columns],
             [*rows],
-            text=text,
-            bold=bold,
             labels=labels,
             colours=style.MAP if log else style.MAP_FROM_ZERO,
             scale=scale,
@@ -90,7 +80,6 @@ def draw(
         label=labelled(labels, value),
         location="bottom",
         aspect=60,
-        extend="both" if limits and log else "neither",
         format="{x:g}",
     )
     return drawn
@@ -114,6 +103,11 @@ def matrix(
     """Colour the cells of all ``columns`` and ``rows`` on ``axes``, and write into them.
 
     The arguments are those of ``draw``; ``scale`` is that of the ``colours``.
+
+    Parameters
+    ----------
+    text : column of the text in a cell; without it the number of ``value``
+    bold : column of whether the text is bold
     """
     places = {(rows.index(record[y]), columns.index(record[x])): record for record in records}
     values = np.full((len(rows), len(columns)), np.nan)

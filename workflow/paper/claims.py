@@ -60,7 +60,7 @@ def frequencies_of_rom(numbers: Numbers) -> Finding:
         (Value("error of the paper's basis, %", 100 * model["error"], 0, 1),),
         shown={"of ours": 100 * model["error_default"], "speeds": model["speeds"]},
         because="Its six fixed-interface modes at each speed are too few on this blade; with nine "
-        "the error is below 1 % (`./run snakemake study_bases`).",
+        "the error is below 1 % (workflow/study/kept/bases.csv).",
     )
 
 
@@ -146,7 +146,7 @@ def crossings(numbers: Numbers) -> Finding:
 
 
 def shifts(numbers: Numbers) -> Finding:
-    """C11: the data of the identification (``workflow.identify``)."""
+    """C11: the data of the identification (workflow/paper.md)."""
     ours = {(part, k): _peak(numbers, part, int(k))["over_crossing"] for part, k in SHIFTS}
     resolution = {str(k): SPACING / crossing for k, crossing in CONSISTENT.items()}
     values = [

@@ -5,12 +5,11 @@ from math import sqrt
 from textwrap import fill
 from typing import Any
 
-from workflow.identify.fits import DRAWS, posterior_of
-from workflow.identify.report import factors
 from workflow.markdown import WIDTH, cell
 from workflow.paper.report import Row, named
 from workflow.paper.verdict import HOLDS
 
+FIT, DATA = "K = 4.55, printed", "with C12 and C16"  # whose medoid the scenes of the paper take
 NEARLY_ALL, HARDLY_ANY = 0.9, 0.1  # share of the draws
 
 INTRODUCTION = """\
@@ -51,25 +50,25 @@ the tip shows the unit of E times footprint over thickness, and no more than thi
 contact force."""
 
 
-def text(claims: Sequence[Row], fits: Mapping[str, Any], long: Mapping[str, Any]) -> str:
+def text(claims: Sequence[Row], identified: Mapping[str, Any], long: Mapping[str, Any]) -> str:
     """The paragraphs, as Markdown.
 
     Parameters
     ----------
     claims : rows of their table
-    fits : those of the prior whose medoid the scenes take
+    identified : what the identification found (workflow/paper/identified)
     long : numbers of long times
     """
     others = named(claims, "other")
     compared = [row for row in claims if row["verdict"] != "not comparable"]
     groups = {name: [_line(row) for row in compared if _group(row) == name] for name in GROUPS}
-    size = posterior_of(fits)["effective"]
+    draws, size = identified["shares"]["draws"], identified["fits"][FIT][DATA]["effective"]
     introduction = INTRODUCTION.format(
         other=" and ".join(others) or "no other",
-        draws=DRAWS,
+        draws=draws,
         size=size,
         share=100 * NEARLY_ALL,
-        error=100 * sqrt(NEARLY_ALL * (1 - NEARLY_ALL) * (1 / DRAWS + 1 / size)),
+        error=100 * sqrt(NEARLY_ALL * (1 - NEARLY_ALL) * (1 / draws + 1 / size)),
     )
     return "\n\n".join(
         [
@@ -80,7 +79,7 @@ def text(claims: Sequence[Row], fits: Mapping[str, Any], long: Mapping[str, Any]
                 if lines
             ),
             fill(_long(long), WIDTH),
-            fill(_experiment(fits), WIDTH),
+            fill(_experiment(identified), WIDTH),
         ]
     )
 
@@ -133,12 +132,17 @@ def _long(numbers: Mapping[str, Any]) -> str:
     )
 
 
-def _experiment(fits: Mapping[str, Any]) -> str:
-    taken, prior = posterior_of(fits), fits["prior"]
+def _experiment(identified: Mapping[str, Any]) -> str:
+    taken, prior = identified["fits"][FIT][DATA], identified["prior"]
+
+    def factors(name: str) -> list[float]:
+        """Range of a positive parameter as a ratio, in the posterior and in the prior."""
+        return [of["ranges"][name][2] / of["ranges"][name][0] for of in (taken, prior)]
+
     return EXPERIMENT.format(
-        unit=factors(fits, taken, "unit_Pa"),
-        casing=factors(fits, taken, "casing_gaps"),
-        damping=factors(fits, taken, "damping_ratio"),
+        unit=factors("unit_Pa"),
+        casing=factors("casing_gaps"),
+        damping=factors("damping_ratio"),
         mean=taken["ranges"]["constant_over_second"],
         assumed=prior["ranges"]["constant_over_second"],
         four=100 * taken["four_places"],

@@ -26,21 +26,14 @@ type Case = dict[str, Any]
 
 
 def of_coating(runs: xr.Dataset, rom: Rom, scene: Scene) -> Case:
-    """One coating of the grid, as ``without_twins``; at each peak the twin is run as well."""
-    numbers = without_twins(runs, rom, scene)
-    return numbers | {
-        "peaks": {k: p and p | _predictable(rom, scene, p) for k, p in numbers["peaks"].items()}
-    }
-
-
-def without_twins(runs: xr.Dataset, rom: Rom, scene: Scene) -> Case:
-    """One coating of the grid: E and K, number of runs, statuses, and peaks by order."""
+    """One coating of the grid: E and K, number of runs, statuses, peaks with their twins."""
+    peaks = {str(k): peak(runs, rom, k) for k in scene.peaks.orders}
     return {
         "E": scene.liner.law.E,
         "K": scene.liner.law.K,
         "runs": runs.sizes["speed_over_f1"],
         "statuses": statuses(runs),
-        "peaks": {str(k): peak(runs, rom, k) for k in scene.peaks.orders},
+        "peaks": {k: p and p | _predictable(rom, scene, p) for k, p in peaks.items()},
     }
 
 

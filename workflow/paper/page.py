@@ -2,10 +2,10 @@
 
 from collections.abc import Mapping, Sequence
 from html import escape
+from typing import Any
 
 from jinja2 import Environment
 
-from geometry.project import read_json
 from workflow.paper.claims import CLAIMS
 from workflow.paper.editions import editions
 from workflow.paper.report import Row, counts, markdown as table, named, ours, share, verdicts
@@ -83,18 +83,27 @@ in how many of the draws of the identification what the paper says holds.</p>
 """
 
 
-def claims(numbers: Numbers, further: Mapping[str, Mapping[str, str]]) -> list[Row]:
+def claims(
+    numbers: Numbers,
+    further: Mapping[str, Mapping[str, str]],
+    narrow: Mapping[str, Any],
+    wide: Mapping[str, Any],
+) -> list[Row]:
     """Verdicts on the claims, with the repeats, other blades and causes that have been run.
 
-    ``further``: files of these runs by group, as ``editions`` takes them.
+    Parameters
+    ----------
+    numbers : those of the scenes
+    further : files of these runs by group, as ``editions`` takes them
+    narrow, wide : what the identification found with either prior (workflow/paper/identified)
     """
     groups = {
         group: editions(**further[group]) if group in further else {}
         for group in ("repeats", "other", "causes")
     }
-    shares = {name: read_json(file) for name, file in further.get("shares", {}).items()}
-    holds = {f"{name} prior": draws["holds"] for name, draws in shares.items() if draws}
-    return verdicts(CLAIMS, numbers, **groups, shares=holds)
+    priors = {"narrow prior": narrow, "wide prior": wide}
+    shares = {name: found["shares"]["holds"] for name, found in priors.items()}
+    return verdicts(CLAIMS, numbers, **groups, shares=shares)
 
 
 def html(judged: Sequence[Row]) -> str:

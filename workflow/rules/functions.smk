@@ -1,7 +1,5 @@
-# Functions of the rules of figures, experiments, studies, the paper and the identification.
+# Functions of the rules of figures, experiments, studies and the paper.
 # They stand apart from the rules, whose files are then only rules. `=name` in numbers.yaml calls one.
-import yaml
-
 from workflow.experiment.plan import Experiment, cases
 from workflow.figures import table
 
@@ -104,11 +102,6 @@ def source_of_blade(wildcards):
     return blade_source(wildcards).get("source")
 
 
-def before_stages(wildcards):
-    """Those of an earlier version, by tests/benchmarks/before.py."""
-    return own_files(["workflow/study/before.json"])[0]
-
-
 def scene_of_stability(wildcards):
     return SCENES["hand-e1"].model_dump(mode="json")
 
@@ -127,16 +120,6 @@ def scenes_of_nodes(wildcards):
     }
 
 
-def number_of_jobs(wildcards):
-    return int(wildcards.jobs)
-
-
-def logs_of_scaling(wildcards):
-    """Logs that the study of cost reads."""
-    stages = yaml.safe_load(Path("workflow/study/scaling.yaml").read_text())
-    return [stage["log"].format(name) for stage in stages for name in stage["of"]]
-
-
 def further_files():
     """Files that the claims table includes if all of a group exist, by target and by group."""
 
@@ -148,7 +131,6 @@ def further_files():
         "paper_uncertainty": {"repeats": of("repeats", "growth")},
         "paper_causes": {"causes": of("causes")},
         "paper_rotor37": {"other": of("rotor37", "growth") | {"model": model}},
-        "identify": {"shares": {name: f"results/identify/{name}/shares.json" for name in PRIORS}},
     }
 
 
@@ -214,109 +196,3 @@ def files_of_long_times(wildcards):
 def scene_of_density(wildcards):
     """Settings of the scene whose density is changed, for its cost."""
     return SCENES["paper-density-1"].model_dump(mode="json")
-
-
-# Ranges of the identification, workflow/identify/NAME.yaml. The scenes of the paper take the medoid of the first.
-PRIORS = ("narrow", "wide")
-PRIOR_BLADES = 64  # of each
-# Points of each table, and the data by which they are drawn from what the tables before it say.
-TABLES = {
-    "prior": (256, None),
-    "first": (256, "shifts"),
-    "second": (384, "shifts"),
-    "third": (256, "with C12 and C16"),
-    "fourth": (256, "with C12 and C16"),
-    "fifth": (512, "with C12 and C16"),
-}
-DRAW_BLOCKS = 10  # jobs for the draws at which the paper's other claims are judged
-# Scenes of these claims.
-CLAIM_SCENES = {
-    "e10": "identify-e10",
-    "two_five": "identify-two-five",
-    "grid": "identify-grid",
-    "rigid": "identify-rigid",
-}
-
-
-def settings_of_prior(wildcards):
-    """All ranges, those of its base among them."""
-    from workflow.identify.priors import Priors
-
-    path = own_files([f"workflow/identify/{wildcards.prior}.yaml"])[0]
-    return read_or_fail(Priors.load, path).model_dump(mode="json")
-
-
-def base_of_priors(wildcards):
-    """The blade whose shape is drawn."""
-    return blade_settings("identified").model_dump(mode="json", exclude_unset=True)
-
-
-def of_prior(wildcards, pattern, names):
-    """Files of a prior."""
-    return [f"results/identify/{wildcards.prior}/{pattern.format(name)}" for name in names]
-
-
-def blades_of_prior(wildcards):
-    return of_prior(wildcards, "blade-{}.json", range(PRIOR_BLADES))
-
-
-def roms_of_prior(wildcards):
-    return expand("results/{{prior}}-{number}/rom-r.nc", number=range(PRIOR_BLADES))
-
-
-def number_of_blades(wildcards):
-    return PRIOR_BLADES
-
-
-def scene_of_tables(wildcards):
-    """The scene of every row; its parameters are those of the row's point."""
-    return without_parameters({"": SCENES["identify"]})[""]
-
-
-def without_parameters(scenes):
-    """Scenes without the parameters that every point sets: these rerun nothing."""
-    from workflow.identify.measured import scenes_at
-    from workflow.identify.priors import NAMES
-
-    values = dict.fromkeys(NAMES, 1.0) | {"unit_Pa": 1.0e9, "damping_ratio": 0.01}
-    found = scenes_at(scenes, values, "identified")
-    return {part: scene.model_dump(mode="json") for part, scene in found.items()}
-
-
-def blocks_of_table(wildcards):
-    """Number of jobs that march a table."""
-    return CONFIG.blocks
-
-
-def samples_before(wildcards):
-    """The tables before one; all, without one."""
-    names = [*TABLES]
-    return names[: names.index(wildcards.sample)] if "sample" in wildcards.keys() else names
-
-
-def rows_before(wildcards):
-    blocks = [
-        f"{name}-block-{i}" for name in samples_before(wildcards) for i in range(CONFIG.blocks)
-    ]
-    return of_prior(wildcards, "{}.json", blocks)
-
-
-def points_of_table(wildcards):
-    return TABLES[wildcards.sample][0]
-
-
-def data_of_table(wildcards):
-    """The data by which its points are drawn."""
-    return TABLES[wildcards.sample][1]
-
-
-def given_draws(wildcards):
-    return {
-        "parts": without_parameters({part: SCENES[name] for part, name in CLAIM_SCENES.items()}),
-        "blocks": DRAW_BLOCKS,
-        "folder": f"results/identify/{wildcards.prior}/measured/parts",
-    }
-
-
-def all_measured(wildcards):
-    return of_prior(wildcards, "measured/{}.json", range(DRAW_BLOCKS))

@@ -1,6 +1,6 @@
 """Error and CPU time of settings on all scenes, and the cheapest one for each level."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from math import inf
 from typing import Any
 
@@ -35,14 +35,6 @@ def group_rows(rows: Sequence[ExperimentRow], *groups: str) -> pd.DataFrame:
     errors_by_name["Omega_c"] = largest.where(frame["scene"] == "resonance")
     errors_by_name["worst"] = errors_by_name[JUDGED].max(axis=1, skipna=False).fillna(inf)
     return frame.join(errors_by_name)[frame["scene"].isin(SCENES) & errors.notna()]
-
-
-def scheme_of(settings: Mapping[str, Any]) -> str:
-    """Scheme of a scene: `piecewise-exact`, `central`, or `mass-scaled` central differences."""
-    integrator = settings["integrator"]
-    if integrator["scheme"] != "central-difference":
-        return integrator["scheme"]
-    return "central" if integrator.get("mass_scaling_hz") is None else "mass-scaled"
 
 
 def uncertainty(rows: Sequence[ExperimentRow]) -> pd.DataFrame:

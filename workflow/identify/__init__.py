@@ -1,1 +1,0 @@
-"""Identification of parameters that the paper leaves open, from the critical speeds it gives."""
