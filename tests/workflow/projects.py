@@ -1,13 +1,20 @@
 """A copy of the project with a coarse blade and short sweeps, for tests that edit it."""
 
+import atexit
+import filecmp
 import os
 import re
+import runpy
 import shutil
 import subprocess
 import sys
+import warnings
 from collections import Counter
+from collections.abc import Mapping
 from dataclasses import dataclass
+from multiprocessing import get_context
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import yaml
 
@@ -21,6 +28,10 @@ COPIED = (
     "tests/simulate/interface",
     *PACKAGES,
 )
+# Imported once, before any program starts
+LIBRARIES = ["snakemake.cli", "snakemake.notebook", "snakemake.report", "snakemake.workflow"]
+LIBRARIES += ["grimp", "h5py", "pandas", "pydantic", "scipy.sparse", "xarray"]
+MADE = {"results", ".snakemake", "__pycache__"}  # folders of what runs make
 SPEEDS = [0.28, 0.3, 0.32, 0.34, 0.36, 0.38]  # about the crossing of f1 with eo(4)
 
 
@@ -40,19 +51,31 @@ class Project:
 
     def run(self, *arguments: str, expect: int = 0) -> str:
         """Run Snakemake; return stdout and stderr together."""
-        return self.call(*self.command(*arguments), expect=expect)
+        return self.call(*self.command(*arguments)[2:], expect=expect)
 
-    def call(self, *command: str, expect: int = 0) -> str:
-        """Run any command in the folder, likewise."""
-        done = subprocess.run(
-            command,
-            cwd=self.folder,
-            env=self.environment,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-        )
-        assert done.returncode == expect, done.stdout
+    def call(self, module: str, *arguments: str, expect: int = 0) -> str:
+        """Run a module in the folder as a program, likewise.
+
+        A fork of one process runs it, which has imported the libraries, and no module of a project:
+        of a dry run in a process of its own half are imports.
+        """
+        context = get_context("forkserver")
+        context.set_forkserver_preload(LIBRARIES)
+        with TemporaryDirectory() as folder:
+            said = Path(folder) / "said"
+            given = self.folder, self.environment, [module, *arguments], said
+            process = context.Process(target=_program, args=given)
+            process.start()
+            process.join()
+            assert process.exitcode == expect, said.read_text()
+            return said.read_text()
+
+    def python(self, *arguments: str) -> str:
+        """Output of Python in a process of its own."""
+        command = [sys.executable, *arguments]
+        to_one = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
+        done = subprocess.run(command, cwd=self.folder, env=self.environment, **to_one)
+        assert done.returncode == 0, done.stdout
         return done.stdout
 
     def planned(self, *arguments: str) -> Counter:
@@ -69,6 +92,42 @@ class Project:
         values = yaml.safe_load(file.read_text())
         change(values)
         file.write_text(yaml.safe_dump(values))
+
+
+def _program(folder: Path, environment: Mapping[str, str], command: list[str], said: Path) -> None:
+    """Run a module as a program in a folder, whose packages it imports; ends the process."""
+    with said.open("w") as file:
+        for stream in (1, 2):
+            os.dup2(file.fileno(), stream)
+    os.chdir(folder)
+    os.environ.update(environment)
+    outside = [path for path in sys.path if "site-packages" in path or str(ROOT) not in path]
+    sys.argv, sys.path = command, [str(folder), *outside]
+    if command[0].startswith("workflow."):  # ours; Snakemake has warnings
+        warnings.simplefilter("error")
+    try:
+        runpy.run_module(command[0], run_name="__main__", alter_sys=True)
+    finally:
+        atexit._run_exitfuncs()  # multiprocessing does not
+        sys.stdout.flush()
+
+
+def bring_up_to_date(files: Path, project: Path) -> None:
+    """Bring the files of a project to those of another; equal ones keep their times."""
+    project.mkdir(parents=True, exist_ok=True)
+    wanted, found = _files(files), _files(project)
+    for name in found - wanted:
+        (project / name).unlink()
+    for name in wanted:
+        if name not in found or not filecmp.cmp(files / name, project / name, shallow=False):
+            (project / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(files / name, project / name)
+
+
+def _files(folder: Path) -> set[Path]:
+    """Paths in a project of the files that no run makes."""
+    names = {file.relative_to(folder) for file in folder.rglob("*") if file.is_file()}
+    return {name for name in names if not MADE & {*name.parts}}
 
 
 def make_project(folder: Path) -> Project:

@@ -2,7 +2,6 @@
 
 import re
 import shlex
-import sys
 
 import pytest
 import yaml
@@ -95,8 +94,7 @@ def test_full_matrices_are_reduced_and_checked_at_their_speeds(project, full_mat
         file.touch()
     jobs = {"read_matrices": 1, "reduce": 1, "solve_given_model": 1, "check_rom": 1}
     assert project.planned(target) == jobs
-    module = (sys.executable, "-m", "workflow.new", str(project.folder))
-    said = project.call(*module, "scene", "rub-plain", "plain")
+    said = project.call("workflow.new", str(project.folder), "scene", "rub-plain", "plain")
     run, snakemake, *arguments = shlex.split(said.split("then: ")[1])
     assert (run, snakemake) == ("./run", "snakemake")
     assert project.planned(*arguments)["read_matrices"] == 1

@@ -1,7 +1,6 @@
 """The recipes of the page: files are planned and run on the coarse blade, Python is pasted."""
 
 import re
-import sys
 
 import pytest
 import xarray as xr
@@ -19,13 +18,14 @@ SCENES = f"scenes=[{', '.join(NAMES)}]"
 
 
 @pytest.fixture(scope="module")
-def with_files(project):
-    """The project, run once, with the files of the page."""
+def with_files(swept):
+    """The project with its sweeps, and the files of the page."""
     for path, text in FILES.items():
-        (project.folder / path).write_text(text)
-    return project
+        (swept.folder / path).write_text(text)
+    return swept
 
 
+@pytest.mark.slow
 def test_the_first_page_shows_what_the_terminal_prints_of_the_first_scene(project):
     shown = printed(read_json(project.folder / "results/summary.json"))
     assert shown.startswith("```\npaper-e1: blade paper") and "paper-e10" not in shown
@@ -71,7 +71,7 @@ def test_files_of_the_page_give_results(with_files):
 
 @pytest.mark.parametrize("code", PYTHON, ids=range(len(PYTHON)))
 def test_python_of_the_page_runs_as_pasted(code, with_files):
-    said = with_files.call(sys.executable, "-W", "error", "-c", code)
+    said = with_files.python("-W", "error", "-c", code)
     for written in re.findall(r"\"(\w+\.(?:npz|csv|png|nc))\"", code):
         assert (with_files.folder / written).is_file()
     if "mine.nc" in code:

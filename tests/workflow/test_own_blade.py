@@ -4,7 +4,6 @@ import csv
 import json
 import re
 import shlex
-import sys
 from io import StringIO
 from pathlib import Path
 from types import SimpleNamespace
@@ -71,7 +70,7 @@ def run(project, words):
     assert words[0] == "./run"
     modules = {"snakemake": ["snakemake", "--cores", "2"], "check": ["workflow.check"]}
     modules["new"] = ["workflow.new", str(project.folder)]
-    return project.call(sys.executable, "-m", *modules[words[1]], *words[2:])
+    return project.call(*modules[words[1]], *words[2:])
 
 
 @pytest.mark.slow
