@@ -389,9 +389,24 @@ FIGURES = {
 }
 
 
+@pytest.fixture
+def figure(request):
+    """Return a function of a name in ``FIGURES``: the figure, drawn once."""
+
+    def figure(name):
+        if name not in DRAWN:
+            DRAWN[name] = FIGURES[name](request.getfixturevalue)
+        return DRAWN[name]
+
+    return figure
+
+
+DRAWN = {}
+
+
 @pytest.mark.parametrize("name", FIGURES)
-def test_a_figure_has_its_labels_and_nothing_is_cut_or_hidden(name, request):
-    assert faults(FIGURES[name](request.getfixturevalue)) == []
+def test_a_figure_has_its_labels_and_nothing_is_cut_or_hidden(name, figure):
+    assert faults(figure(name)) == []
 
 
 def test_faults_of_a_figure_are_found():
@@ -737,10 +752,10 @@ NUMBERS = {  # by figure and what is shown: the numbers that are drawn, and what
 }
 
 
-@pytest.mark.parametrize(("figure", "shown"), NUMBERS)
-def test_a_figure_shows_its_numbers(figure, shown, request):
-    drawn, expected = NUMBERS[figure, shown]
-    made = FIGURES[figure](request.getfixturevalue)
+@pytest.mark.parametrize(("name", "shown"), NUMBERS)
+def test_a_figure_shows_its_numbers(name, shown, figure):
+    drawn, expected = NUMBERS[name, shown]
+    made = figure(name)
     made.draw_without_rendering()
     np.testing.assert_allclose(
         np.asarray(drawn(made), float), np.asarray(expected, float), 1e-5, 1e-9
@@ -788,8 +803,8 @@ TEXTS = {  # of the cells of the grid: by rows, and which are bold
 
 
 @pytest.mark.parametrize("name", TEXTS)
-def test_cells_of_the_grid_have_their_numbers_and_marks(name, request):
-    found, bold = words(FIGURES[name](request.getfixturevalue).axes[0])
+def test_cells_of_the_grid_have_their_numbers_and_marks(name, figure):
+    found, bold = words(figure(name).axes[0])
     assert ([found[x, y] for y in (0, 1) for x in (0, 1, 2)], bold) == TEXTS[name]
 
 
