@@ -92,7 +92,7 @@ def _nodes(blade: Blade, camber: NDArray[np.float64], mesh: str | Path) -> Nodes
     there = np.bincount(station, area, STATIONS + 1)
     width = np.diff(on_line(camber, _ends())[:, 2])[station] * (area / there[station]) * across
     radius, theta = np.hypot(x, y), np.arctan2(y, x)
-    return Nodes(S, Places(np.array([0.0, 1.0]), xi, radius, theta, width), across, station)
+    return Nodes(S, Places(np.array([0.0, 1.0]), xi, radius, theta, width, 0 * xi), across, station)
 
 
 def _ends() -> NDArray[np.float64]:
