@@ -95,7 +95,8 @@ def _start(
     kept = _room(scene.record, rounds, len(setup.Phi_out), state.motion.x.shape[1])
     Phi_out, ramp = padded_rows(setup.Phi_out), ramp_of(scene.casing)
     share = force_weights(setup.places.ends)[: kept[1].shape[2]]
-    weights = np.stack([share * setup.places.secant, share])
+    over_radial = np.stack([setup.places.secant, np.ones_like(setup.places.secant)])
+    weights = share * over_radial[:, None]
 
     def arguments(done: int, before: int = 0) -> tuple[Any, ...]:
         """Of the kernel in revolution ``done``, from 0, after ``before`` of another run."""

@@ -64,7 +64,7 @@ def numbers(files: Any, blade: str, scenes: dict[str, Row]) -> list[Row]:
     xi = nodes.places.xi
     rom, _ = reduce(fom, settings.basis, "r")
     of_nodes, T = reduce(replace(fom, S=nodes.S, xi=xi), settings.basis, "r")
-    at_leading = hats(leading, rom.xi) @ (fom.rows(1) @ T)
+    at_leading = hats(leading, rom.xi) @ (fom.rows("r") @ T)
     moving = {
         "on their own": Moves(of_nodes, np.eye(len(xi), of_nodes.n), at_leading),
         "as the patches": Moves(rom, rom.rows(xi), rom.rows(leading)),
