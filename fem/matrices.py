@@ -1,6 +1,6 @@
 """``matrices.h5``: the matrices of the finite elements, from which the reduced model is made."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import Self
 
@@ -10,6 +10,7 @@ from scipy.sparse import csr_matrix
 
 from geometry.project import Provenance
 from geometry.stored import Stored, frozen, stored
+from geometry.taper import slope_of_tip
 
 CODE = ("fem.assemble",)  # module that computes its numbers; the mesh has a hash of its own
 
@@ -50,9 +51,15 @@ class Constants(InterfaceOperator):
     span: float = stored(units="m")
     provenance: Provenance  # the blade, its mesh and settings, the code
 
-    def rows(self, directions: int) -> csr_matrix:
-        """Rows of S (directions n, n_full) for the first ``directions`` of each patch or point."""
-        return self.S[np.arange(self.S.shape[0]) % 3 < directions]
+    def rows(self, directions: Collection[str]) -> csr_matrix:
+        """Rows of S (directions n, n_full) of each patch or point in ``directions``, of "rtz"."""
+        kept = np.tile([letter in directions for letter in "rtz"], len(self.xi))
+        return self.S[kept]
+
+    @property
+    def slope(self) -> NDArray[np.float64]:
+        """Slope dr/dz (places,) of the tip at the places of its camber line."""
+        return slope_of_tip(self.coordinates[np.unique(self.S.indices // 3)], self.camber)
 
 
 @frozen

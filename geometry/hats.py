@@ -3,6 +3,8 @@
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+POINTS = 4096  # of the quadrature along the chord
+
 
 def hats(xi: ArrayLike, nodes: NDArray[np.float64]) -> NDArray[np.float64]:
     """Values (places, nodes) at chord fractions ``xi`` (places,) of the hats of ``nodes`` (nodes,).
@@ -28,3 +30,25 @@ def hat_nodes(n: int) -> NDArray[np.float64]:
 def middles(m: int) -> NDArray[np.float64]:
     """Chord fractions (m,) of the middles of ``m`` equal parts of the chord."""
     return (np.arange(m) + 0.5) / m
+
+
+def projection(
+    nodes: NDArray[np.float64],
+    onto: NDArray[np.float64],
+    factor: NDArray[np.float64] | None = None,
+) -> NDArray[np.float64]:
+    """L2 projection (onto, nodes) over the chord, from the hats of ``nodes`` to those of ``onto``.
+
+    Of the product with ``factor`` (places,) where it is given, at equally spaced xi from 0 to 1.
+
+    >>> nodes = hat_nodes(3)
+    >>> projection(nodes, nodes, np.array([2.0, 2.0])).round(12) + 0.0
+    array([[2., 0., 0.],
+           [0., 2., 0.],
+           [0., 0., 2.]])
+    """
+    xi = middles(POINTS)
+    phi, field = hats(xi, onto), hats(xi, nodes)
+    if factor is not None:
+        field *= np.interp(xi, np.linspace(0, 1, len(factor)), factor)[:, None]
+    return np.linalg.solve(phi.T @ phi, phi.T @ field)

@@ -11,7 +11,7 @@ from geometry.project import Caution, Provenance
 from geometry.stored import Stored, frozen, stored
 from rom.between import error_between
 from rom.full_model import FullModel
-from rom.model import CODE, Rom, RomError
+from rom.model import CODE, DIRECTIONS, Rom, RomError
 from rom.speeds import node_polynomial, places_between
 
 MORE = "raise basis.speeds, lower the highest speed"  # remedies of an error between the speeds
@@ -128,6 +128,7 @@ def check(rom: Rom, full: FullModel) -> RomCheck:
     P, C = hats(rom.places, rom.xi), full.compliance.reshape(-1, *(len(rom.xi), 3) * 2)
     of_each = np.einsum("pi,sidjd,pj->spd", P, C, P)
     compliance = np.array([rom.compliance(speed) for speed in full.speeds])
+    kept = [name in rom.directions for name in DIRECTIONS.values()]
     # of matrices from elsewhere: our own basis sees to K(Omega) between its speeds itself
     elsewhere = "full_matrices" in rom.provenance.settings
     K = np.array([rom.stiffness(Omega) for Omega in full.speeds])
@@ -136,7 +137,7 @@ def check(rom: Rom, full: FullModel) -> RomCheck:
         full=full.omega,
         reduced=reduced[:, :modes],
         xi=rom.places,
-        compliance_error=compliance / of_each[..., : len(rom.directions)] - 1,
+        compliance_error=compliance / of_each[..., kept] - 1,
         highest=float(np.nanmax(reduced)),
         between=error_between(rom.M, K, full.speeds) if elsewhere else np.nan,
         provenance=rom.provenance,

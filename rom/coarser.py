@@ -13,13 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geometry.blade import EnrichedBasis
-from geometry.hats import hat_nodes, hats, middles
+from geometry.hats import hat_nodes, projection
 from rom.basis import Components, enriched_basis, project
 from rom.model import Rom, RomError
 from rom.speeds import basis_speeds
 
 MODES = 3 / 4  # the error of wear is of about fifth order in the natural modes: four times as large
-POINTS = 4096  # of the quadrature along the chord
 
 
 def coarser(rom: Rom) -> tuple[Rom, NDArray[np.float64]]:
@@ -36,7 +35,7 @@ def coarser(rom: Rom) -> tuple[Rom, NDArray[np.float64]]:
         )
     basis = EnrichedBasis(**rom.provenance.settings["basis"])
     nodes, directions = hat_nodes(len(rom.xi) // 2), len(rom.directions)
-    along = _projection(rom.xi, nodes)
+    along = projection(rom.xi, nodes)
     Pi = np.kron(along, np.eye(directions))
     S = np.hstack([Pi, np.zeros((len(Pi), rom.n - Pi.shape[1]))])
     modes = ceil(MODES * basis.natural_modes)
@@ -51,10 +50,3 @@ def _components(rom: Rom, Omega: float, S: NDArray[np.floating], modes: int) -> 
     """Constraint modes for c' = S u, and ``modes`` natural modes, of the reduced model."""
     A = np.linalg.solve(rom.stiffness(Omega), S.T)
     return Components(np.linalg.solve(S @ A, A.T).T, rom.modes(Omega)[1][:, :modes])
-
-
-def _projection(fine: NDArray[np.float64], coarse: NDArray[np.float64]) -> NDArray[np.float64]:
-    """L2 projection (coarse, fine) over the chord, from the hats of fine nodes to coarse ones."""
-    xi = middles(POINTS)
-    phi = hats(xi, coarse)
-    return np.linalg.solve(phi.T @ phi, phi.T @ hats(xi, fine))

@@ -22,7 +22,9 @@ from geometry.project import Provenance, code_hash, file_hash, sealed
 from geometry.tip import cartesian
 from rom.model import CODE, DIRECTIONS, Rom, RomError
 
-OPTIONAL = ("points", "f1", "growth", "speeds", "gauges", "gauge_rows")
+NAMES = tuple(DIRECTIONS.values())
+ALLOWED = (NAMES[:1], NAMES[:2], NAMES, NAMES[::2])  # of the interface DoFs
+OPTIONAL = ("points", "f1", "growth", "speeds", "slope", "gauges", "gauge_rows")
 PAGE = "rom/README.md, A reduced model from elsewhere,"
 SPEEDS = 33  # over [0, Omega_m], at which K must be positive definite
 DEFINITE = 1e-14  # of the largest eigenvalue: round-off
@@ -150,7 +152,7 @@ def _values(path: str | Path) -> dict[str, Any]:
 
 def _rom(variables: dict[str, Any], blade: str, mesh: str) -> Rom:
     """The model of the values in a file, with the settings by which a coarser one is made."""
-    arrays = ("M", "K", "xi", "points", "camber", "growth", "speeds")
+    arrays = ("M", "K", "xi", "points", "camber", "growth", "speeds", "slope")
     values: dict[str, Any] = {
         "points": np.empty((0, 3)),
         **{name: np.asarray(variables[name], float) for name in arrays if name in variables},
@@ -188,8 +190,8 @@ def _shape_faults(rom: Rom, power: NDArray) -> list[str]:
             f"power: {power}: needs 0, 2, 4, ..., one for each K",
         ),
         (
-            rom.directions == tuple(DIRECTIONS.values())[: len(rom.directions)],
-            f"directions: {rom.directions}: need {tuple(DIRECTIONS.values())}, the first or more",
+            rom.directions in ALLOWED,
+            f"directions: {rom.directions}: need {NAMES}, the first or more, or radial and axial",
         ),
         (
             len(rom.xi) > 1 and 0 < n_c <= n,
@@ -203,6 +205,10 @@ def _shape_faults(rom: Rom, power: NDArray) -> list[str]:
         (
             rom.camber.shape[1:] == (3,) and len(rom.camber) >= 2,
             f"camber {rom.camber.shape}: needs r, theta, z of two places or more",
+        ),
+        (
+            rom.slope.shape in ((0,), (len(rom.camber),)),
+            f"slope {rom.slope.shape}: needs one for each place of camber",
         ),
         (
             not rom.growth.size or rom.growth.shape[1:] == rom.xi.shape,

@@ -9,9 +9,10 @@ from numpy.typing import NDArray
 from scipy.linalg import eigh
 
 from geometry.blade import RPM
-from geometry.hats import hats, middles
+from geometry.hats import hats, middles, projection
 from geometry.project import Provenance, UserError
 from geometry.stored import Stored, frozen, stored
+from geometry.taper import slope_of_line
 from geometry.tip import on_line
 from rom.polynomial import evaluate, interpolate
 
@@ -25,8 +26,8 @@ class RomError(UserError):
     """A reduced model that cannot be read or used; the message says which and why."""
 
 
-def direction_names(letters: str) -> tuple[str, ...]:
-    """Names of the interface directions "r", "rt" or "rtz".
+def require_letters(letters: str) -> None:
+    """Refuse interface directions other than "r", "rt" or "rtz".
 
     Raises
     ------
@@ -35,7 +36,6 @@ def direction_names(letters: str) -> tuple[str, ...]:
     """
     if not letters or not "rtz".startswith(letters):
         raise RomError("allowed r, rt, rtz", key="interface directions", value=letters)
-    return tuple(DIRECTIONS[letter] for letter in letters)
 
 
 def require_speed(Omega: float, Omega_m: float) -> None:
@@ -96,6 +96,8 @@ class Rom(Stored):
     speeds: NDArray[np.float64] = stored(
         "speed", "rad s-1", default_factory=lambda: np.empty(0), long_name="speeds of the basis"
     )
+    # (places,): slope dr/dz of the tip at the places of ``camber``; (0,): that of ``camber``
+    slope: NDArray[np.float64] = stored("slope_place", default_factory=lambda: np.empty(0))
     # names of the grids of strain gauges; none but in a model that is made for a scene
     gauges: tuple[str, ...] = stored("gauge", default_factory=tuple)
     # (powers, 2, gauges, 1 + n), sum Omega^power gauge_rows: strain along each grid, 1, and stress
@@ -174,6 +176,34 @@ class Rom(Stored):
         P[:, first : count * len(self.xi) : count] = hats(xi, self.xi)
         return P
 
+    @property
+    def taper(self) -> NDArray[np.float64]:
+        """Slope dr/dz (places,) of the tip at equally spaced xi from 0 to 1."""
+        return self.slope if self.slope.size else slope_of_line(self.camber)
+
+    def closing_rows(
+        self, xi: NDArray[np.float64], slope: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
+        """P (k, n): u_r - s u_z = P u at chord fractions ``xi`` (k,), under a casing of ``slope``.
+
+        What closes a gap that is measured along the radius; u_r where the slope s (places,) at
+        equally spaced xi is 0. The product s u_z is projected on the hats, as S projects
+        displacements: taken at the hats' nodes alone it errs by some per cent where s varies.
+
+        Raises
+        ------
+        RomError
+            When the slope is not 0 and the model was reduced without axial interface DoFs.
+        """
+        if not slope.any():
+            return self.rows(xi)
+        axial = self.rows(self.xi, "z")
+        if self.of_points:
+            N = np.diag(np.interp(self.xi, np.linspace(0, 1, len(slope)), slope))
+        else:
+            N = projection(self.xi, self.xi, slope)
+        return self.rows(xi) - hats(xi, self.xi) @ N @ axial
+
     def require_directions(self, letters: str) -> None:
         """Refuse a model without the interface DoFs "r", "rt" or "rtz".
 
@@ -210,7 +240,8 @@ class Rom(Stored):
             Outside [0, Omega_m].
         """
         flexibility = np.linalg.inv(self.stiffness(Omega))
-        rows = [self.rows(self.places, letter) for letter in "rtz"[: len(self.directions)]]
+        letters = [letter for letter, name in DIRECTIONS.items() if name in self.directions]
+        rows = [self.rows(self.places, letter) for letter in letters]
         return np.column_stack([np.diag(P @ flexibility @ P.T) for P in rows])
 
     def growth_at(self, xi: NDArray[np.float64], Omega: float) -> NDArray[np.float64]:

@@ -9,7 +9,7 @@ from fem.matrices import Matrices
 from geometry.blade import EnrichedBasis, PaperBasis, settings_of_basis
 from geometry.project import Say, counted, silent
 from rom.basis import Components, enriched_basis, paper_basis, project
-from rom.model import CODE, Rom, direction_names
+from rom.model import CODE, DIRECTIONS, Rom, require_letters
 from rom.modes import ModesError, ShiftInvert
 from rom.polynomial import interpolate
 from rom.speeds import basis_speeds
@@ -28,7 +28,8 @@ def reduce(
     Parameters
     ----------
     fom : matrices at the speeds of ``basis_speeds`` and perhaps more, or given ones at their own
-    directions : of the interface DoFs: "r" radial, "rt" also tangential, "rtz" also axial
+    directions : of the interface DoFs: "r" radial, "rt" also tangential, "rtz" also axial, which a
+        tip that tapers has in any case
     say : called after each speed with the number left
 
     Raises
@@ -36,24 +37,27 @@ def reduce(
     ValueError
         When ``fom`` lacks one of these speeds.
     """
-    names = direction_names(directions)
+    require_letters(directions)
+    slope = fom.slope
+    letters = directions.removesuffix("z") + "z" if slope.any() else directions
     Omega_m = fom.top_speed
     wanted = basis_speeds(basis, Omega_m)
     nearest = abs(wanted[:, None] - fom.speeds).min(axis=1).max()
     further = isinstance(basis, EnrichedBasis) or len(fom.speeds) == len(wanted)
     if not (fom.given or (further and nearest <= 1e-12 * Omega_m)):
         raise ValueError(f"the basis needs the speeds {wanted}, not {fom.speeds}")
-    T = _basis(fom, basis, fom.rows(len(names)), say)
+    T = _basis(fom, basis, fom.rows(letters), say)
     # Eq. (1) projected by Eq. (5)
     M, K = project(fom.M, T), np.stack([project(K, T) for K in fom.K])
     lowest = eigh(K[0], M, eigvals_only=True, subset_by_index=[0, 0])[0]
     rom = Rom(
         M=M,
         K=interpolate(K, fom.speeds),
-        directions=names,
+        directions=tuple(DIRECTIONS[letter] for letter in letters),
         xi=fom.xi,
         points=fom.points,
         camber=fom.camber,
+        slope=slope,
         Omega_m=Omega_m,
         f1=float(np.sqrt(lowest) / (2 * np.pi)),
         span=fom.span,

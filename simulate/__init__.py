@@ -15,6 +15,13 @@ to 1 over a ramp. Positive penetration means contact.
     t_T,i = sum of A_ij sigma_ij p'(s)                     N, against the rotation for s > 0
     M u'' + D u' + K(Omega) u + F^c = 0                    Eq. (1), F^c = P^T of the t_N and t_T
 
+On a casing of slope dr/dz = tan g the normal is (cos g, -sin g) in (r, z). Lengths are radial (gap,
+distortion, thickness, worn depth, the displacement u_r - (dr/dz) u_z, called u_r here) and widths
+axial: strain, wear and the generalised force P^T (sum of A sigma) are then those of the normal, for
+the cosine of the shorter length cancels that of the longer width. Of all outputs t_N alone, and
+with it mu t_N, is along the normal: sum of A sigma / cos g. A thickness that is measured along the
+normal is to be divided by cos g.
+
 p is the profile of the tip over its footprint, 0 where it is flat. Where the tangential motion is
 modelled theta_b gains u_t,i / r_i, and F^c the t_T on the tangential DoFs; else it is radial. With
 friction t_T,i = mu t_N,i instead (``friction``).

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geometry.hats import middles
+from geometry.taper import counted
 from rom.model import Rom
 
 SHARES = 8  # equal parts of the chord, over which outputs are averaged
@@ -25,6 +26,12 @@ class Places:
     radius: NDArray[np.float64]  # (m,), m
     theta: NDArray[np.float64]  # (m,), rad
     width: NDArray[np.float64]  # (m,), m, axial; their sum is the axial length of the tip
+    slope: NDArray[np.float64]  # (m,), dr/dz of the casing
+
+    @property
+    def secant(self) -> NDArray[np.float64]:
+        """1 / cos g (m,) of the normal's angle g to the radius: t_N over the radial force."""
+        return np.hypot(1.0, self.slope)
 
 
 def volume_of(
@@ -34,15 +41,26 @@ def volume_of(
     return 2 * np.pi * depth @ (width * radius)
 
 
-def strip_places(rom: Rom, strips: int) -> Places:
-    """Places of ``strips`` equal strips; on an interface of points, one strip per point."""
+def slope_of(rom: Rom, given: float | None) -> NDArray[np.float64]:
+    """Slope dr/dz (places,) of the casing at equally spaced xi: ``given``, or that of the tip."""
+    taper = rom.taper
+    return taper if given is None else counted(np.full(len(taper), given))
+
+
+def strip_places(rom: Rom, strips: int, given: float | None = None) -> Places:
+    """Places of ``strips`` equal strips; on an interface of points, one strip per point.
+
+    ``given``: slope of the casing; None: that of the tip.
+    """
     if rom.of_points:
         xi, ends = rom.xi, np.concatenate([[0], (rom.xi[1:] + rom.xi[:-1]) / 2, [1]])
         radius, theta, _ = rom.points.T
     else:
         xi, ends = middles(strips), np.linspace(0, 1, strips + 1)
         radius, theta, _ = rom.line(xi).T
-    return Places(ends, xi, radius, theta, width=np.diff(rom.line(ends)[:, 2]))
+    slope = slope_of(rom, given)
+    at_strips = np.interp(xi, np.linspace(0, 1, len(slope)), slope)
+    return Places(ends, xi, radius, theta, np.diff(rom.line(ends)[:, 2]), at_strips)
 
 
 def share_weights(ends: NDArray[np.float64]) -> NDArray[np.float64]:

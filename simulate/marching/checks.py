@@ -38,6 +38,7 @@ def check_scene(scene: Scene, rom: Rom) -> None:
     faults = [  # in the order of their lines
         *_model(scene.blade, scene.contact, [*scene.record.grids], directions, rom),
         *too_fast,
+        *_slope(scene.casing.slope, rom, strip_places(rom, liner.m, scene.casing.slope).slope),
         *_liner(liner, rom.camber[:, 0]),
         *_strips(liner, rom),
         *_gaps(clearance.gaps([0, 1], rom.span)),
@@ -96,6 +97,27 @@ def _model(
             f"scene: `./run snakemake results/{blade}/<scene>/gauges.nc`",
             "record.gauges",
             ", ".join(gauges),
+        )
+
+
+def _slope(given: float | None, rom: Rom, slope: NDArray[np.float64]) -> Iterator[Fault]:
+    """A casing that tapers under the strips, by ``slope`` (m,), on a model without axial DoFs."""
+    if not slope.any() or DIRECTIONS["z"] in rom.directions:
+        return
+    blade = rom.provenance.blade
+    if given is None:
+        yield Fault(
+            f"the tip of blade {blade} tapers (dr/dz from {slope.min():.3g} to "
+            f"{slope.max():.3g}), and the reduced model has no axial interface DoFs: give one that "
+            "has them, or `casing: {slope: 0}` for contact along the radius",
+            "casing.slope",
+        )
+    else:
+        yield Fault(
+            "the reduced model has no axial interface DoFs; take rom-rtz.nc: `./run snakemake "
+            f"results/{blade}/rom-rtz.nc`, or slope: 0",
+            "casing.slope",
+            given,
         )
 
 

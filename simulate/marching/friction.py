@@ -68,13 +68,16 @@ Modes = tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]  # 
 class Sliding(NamedTuple):
     """Data of a scheme for a tip that slides with friction."""
 
-    mu: float  # friction coefficient
+    mu: NDArray[np.float64]  # (strips,), t_T over the generalised force, mu / cos g
     A: NDArray[np.float64]  # (strips, strips), m/N, Eq. (a)
     soft: NDArray[np.float64]  # (strips,), m/N, 1/k
 
 
-def sliding(scheme: Scheme, mu: float, stiffness: NDArray[np.float64]) -> Scheme:
-    """``scheme``, with tangential rows, whose forces slide; ``stiffness`` k (strips,), N/m."""
+def sliding(scheme: Scheme, mu: NDArray[np.float64], stiffness: NDArray[np.float64]) -> Scheme:
+    """``scheme``, with tangential rows, whose forces slide.
+
+    ``mu`` (strips,): t_T over the generalised force; ``stiffness`` k (strips,), N/m.
+    """
     first_t, m = len(scheme.C) // 2, len(stiffness)
     A = np.ascontiguousarray(scheme.C[:m, :m] + mu * scheme.C[:m, first_t : first_t + m])
     solved_by = Sliding(mu, A, 1 / stiffness)
@@ -201,7 +204,8 @@ def solve_sliding(strips, covered, soft, solver, count):
 def sliding_forces(scheme, strips, state, count):
     """Forces F and places w of the first ``count`` active strips; False where not found."""
     for p in range(count):
-        state.solver.unknowns[p].tau = scheme.sliding.mu
+        unknown = state.solver.unknowns[p]
+        unknown.tau = scheme.sliding.mu[unknown.strip]
     couple(scheme.sliding.A, state.solver, count, False)
     return solve_sliding(strips, state.covered, scheme.sliding.soft, state.solver, count)
 

@@ -62,7 +62,9 @@ class Recorded(NamedTuple):
     forces: NDArray[np.float64]  # (3, shares), N: peak and sum of t_N, sum of t_T, over the steps
     states: NDArray[np.float64]  # (samples, padded n), modal displacements at every sample
     Phi: NDArray[np.float64]  # (places, padded n), modes at the places
-    weights: NDArray[np.float64]  # (shares, m), the part of each strip in each share of the chord
+    # (2, shares, m), the part of each strip in each share of the chord: for t_N times t_N over its
+    # generalised force, and for t_T
+    weights: NDArray[np.float64]
 
 
 @compiled
@@ -152,14 +154,14 @@ def escaped(u, now, nodes, bound):
 def book_forces(force, weights, forces, tangential):
     """Add the ``force`` (rows,), N, of a step to the peaks and sums of each share of the chord."""
     first_t = force.size // 2
-    for s in range(weights.shape[0]):
-        radial = along = 0.0
-        for i in range(weights.shape[1]):
-            radial += weights[s, i] * force[i]
+    for s in range(weights.shape[1]):
+        normal = along = 0.0
+        for i in range(weights.shape[2]):
+            normal += weights[0, s, i] * force[i]
             if tangential:
-                along += weights[s, i] * force[first_t + i]
-        forces[0, s] = max(forces[0, s], radial)
-        forces[1, s] += radial
+                along += weights[1, s, i] * force[first_t + i]
+        forces[0, s] = max(forces[0, s], normal)
+        forces[1, s] += normal
         forces[2, s] += along
 
 

@@ -89,11 +89,14 @@ def _start(
     rows = rows_of(setup.Phi_b, setup.Phi_t)
     scheme = SCHEMES[scene.stepping.scheme].coefficients(setup.omega, rows, zeta, setup.h)
     if (mu := scene.contact.friction) is not None:
-        scheme = sliding(scheme, mu, strip_stiffness(scene.liner, setup.places))
+        along = mu * setup.places.secant
+        scheme = sliding(scheme, along, strip_stiffness(scene.liner, setup.places))
     state = at_start(scheme, strips)
     kept = _room(scene.record, rounds, len(setup.Phi_out), state.motion.x.shape[1])
     Phi_out, ramp = padded_rows(setup.Phi_out), ramp_of(scene.casing)
-    weights = force_weights(setup.places.ends)[: kept[1].shape[2]]
+    share = force_weights(setup.places.ends)[: kept[1].shape[2]]
+    over_radial = np.stack([setup.places.secant, np.ones_like(setup.places.secant)])
+    weights = share * over_radial[:, None]
 
     def arguments(done: int, before: int = 0) -> tuple[Any, ...]:
         """Of the kernel in revolution ``done``, from 0, after ``before`` of another run."""

@@ -14,7 +14,7 @@ from rom.model import Rom
 from rom.polynomial import evaluate
 from simulate.contact.gaps import gaps_at, growth_fault
 from simulate.contact.law_check import compile_fault
-from simulate.contact.places import Places, strip_places
+from simulate.contact.places import Places, slope_of, strip_places
 from simulate.contact.rod_law import RodLaw, rod_law
 from simulate.contact.strips import FLAT, Strips, Tip, largest_over_window, rods_in_footprint
 from simulate.contact.travelling import STANDING, waves
@@ -47,9 +47,9 @@ class Setup:
     limit: float  # s, stability limit of central differences with contact
     omega: NDArray[np.float64]  # (n,), rad/s, natural frequencies, with scaled masses
     Phi: NDArray[np.float64]  # (n, n), their modes
-    Phi_b: NDArray[np.float64]  # (m, n), their radial displacements over the strips, P Phi
+    Phi_b: NDArray[np.float64]  # (m, n), their u_r - s u_z over the strips, P Phi
     Phi_t: NDArray[np.float64]  # (m, n), the tangential ones; (0, n) for radial contact
-    Phi_out: NDArray[np.float64]  # (places, n), the radial ones at the outputs, xi = 1/16 first
+    Phi_out: NDArray[np.float64]  # (places, n), u_r - s u_z at the outputs, xi = 1/16 first
     Phi_gauges: NDArray[np.float64]  # (2 gauges, n): strain along gauges, 1, then stress, Pa
     places: Places
     strips: Strips
@@ -76,8 +76,9 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
     """
     integrator, contact, zeta = scene.stepping, scene.contact, scene.damping_ratio
     omega, Phi = _marched_modes(integrator.mass_scaling_hz, *rom.modes(Omega))
-    places = strip_places(rom, scene.liner.m)
-    Phi_b = rom.rows(places.xi) @ Phi
+    places = strip_places(rom, scene.liner.m, scene.casing.slope)
+    slope = slope_of(rom, scene.casing.slope)
+    Phi_b = rom.closing_rows(places.xi, slope) @ Phi
     Phi_t = rom.rows(places.xi, "t") @ Phi if contact.along else Phi[:0]
     rows = rows_of(Phi_b, Phi_t if contact.tangential else Phi[:0])  # with friction as without
     limit = _limit(scene.liner, contact, zeta, omega, rows, places)
@@ -85,8 +86,10 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
     h = 2 * np.pi / Omega / steps
     if (mu := contact.friction) is not None:
         stiffness = strip_stiffness(scene.liner, places)
-        _require_one_solution((omega, Phi_b, Phi_t), mu, zeta, h, steps, stiffness)
-    compliance = _pushed(mu, Phi_b, Phi_t) @ gain(omega, zeta, h)
+        _require_one_solution(
+            sliding_modes(omega, Phi_b, Phi_t, places), mu, zeta, h, steps, stiffness
+        )
+    compliance = _pushed(mu, Phi_b, Phi_t, places) @ gain(omega, zeta, h)
     if faults := growth_fault(scene.clearance, rom, places.xi, np.array([Omega])):
         raise SceneError(*faults)
     strips = strips_under(scene, rom, places, Omega, steps, compliance)
@@ -100,7 +103,7 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
         Phi=Phi,
         Phi_b=Phi_b,
         Phi_t=Phi_t,
-        Phi_out=rom.rows(np.array([LEADING, *scene.record.chord])) @ Phi,
+        Phi_out=rom.closing_rows(np.array([LEADING, *scene.record.chord]), slope) @ Phi,
         Phi_gauges=evaluate(rom.gauge_rows, Omega)[..., 1:].reshape(-1, rom.n) @ Phi
         if rom.gauges and scene.record.gauges  # companions have none
         else Phi[:0],
@@ -110,15 +113,30 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
     )
 
 
+def sliding_modes(
+    omega: NDArray[np.float64],
+    Phi_b: NDArray[np.float64],
+    Phi_t: NDArray[np.float64],
+    places: Places,
+) -> Modes:
+    """The modes with tangential displacements (m, n) times t_N over the generalised force.
+
+    With them mu times the generalised force does the work of friction, mu t_N.
+    """
+    return omega, Phi_b, places.secant[:, None] * Phi_t
+
+
 def _pushed(
-    mu: float | None, Phi_b: NDArray[np.float64], Phi_t: NDArray[np.float64]
+    mu: float | None, Phi_b: NDArray[np.float64], Phi_t: NDArray[np.float64], places: Places
 ) -> NDArray[np.float64]:
-    """Radial displacements (m, n) over the strips times those along the force on each.
+    """Closing displacements (m, n) over the strips times those along the force on each.
 
     Where friction makes the compliance in a step negative, its share of the end is 0: at the end
     alone, a force that pulls would feed the motion.
     """
-    return Phi_b**2 if mu is None else Phi_b * (Phi_b + mu * Phi_t)
+    if mu is None:
+        return Phi_b**2
+    return Phi_b * (Phi_b + mu * places.secant[:, None] * Phi_t)
 
 
 def _marched_modes(

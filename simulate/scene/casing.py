@@ -140,6 +140,7 @@ class Casing(Settings):
     either: ClassVar = [("harmonics", "table"), ("ramp_rounds", "ramp")]
     hints: ClassVar = {
         "scale": "a factor: 127 % is 1.27",
+        "slope": "dr/dz: 10 deg are 0.1763",
         "ramp_rounds": "in revolutions of the blade",
     }
 
@@ -151,6 +152,13 @@ class Casing(Settings):
         description="The same as a CSV file: angle in degrees, inward depth in m, mm or um",
     )
     scale: Factor = Field(default=1.0, description="Factor on the distortion")
+    slope: float | None = Field(
+        default=None,
+        ge=-1,
+        le=1,
+        description="Slope dr/dz of the casing, along which the tip slides; by default that of the "
+        "tip; 0: contact along the radius. The gaps are those of `clearance`",
+    )
     ramp_rounds: float | None = Field(
         default=None,
         ge=0,

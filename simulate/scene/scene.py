@@ -161,8 +161,11 @@ class Scene(SettingsFile):
 
     @property
     def directions(self) -> str:
-        """Interface directions that the reduced model must have: r, or r and t."""
-        return "rt" if self.contact.along else "r"
+        """Interface directions that the reduced model must have: r, r and t, or all.
+
+        A model of a blade whose tip tapers has axial ones as well.
+        """
+        return "rtz" if self.casing.slope else "rt" if self.contact.along else "r"
 
     @checked
     def _settings_or_accuracy(self) -> None:

@@ -28,7 +28,7 @@ from geometry.project import (
 from geometry.stored import read, write
 from rom.model import Rom
 from rom.polynomial import evaluate
-from simulate.contact.places import SHARES
+from simulate.contact.places import SHARES, slope_of
 from simulate.errors.accuracy import Choice
 from simulate.errors.loads import torque_of_rounds
 from simulate.errors.neighbours import GAP_CHANGE
@@ -36,6 +36,7 @@ from simulate.errors.observables import NUMBERS, last_spectrum
 from simulate.errors.run import Run
 from simulate.marching import STATUSES, WITH_RESULT, FinalState, every, strip_stiffness
 from simulate.marching.friction import growth_rate, mu_crit
+from simulate.marching.setup import sliding_modes
 from simulate.scene import LEADING, Scene
 from simulate.scene.laws.table import Tabulated
 from simulate.sweeps.plain import Course
@@ -135,7 +136,7 @@ COORDINATES = {  # dimensions, unit, meaning
     "chord": ("chord", "1", "chord fraction of the place"),
     "history_time": ("history_time", "1", "revolutions since the start"),
     "time": ("time", "1", "revolutions since the start"),
-    "P": ("strip dof", "1", "radial displacement = P states"),
+    "P": ("strip dof", "1", "u_r - s u_z = P states, s the slope of the casing"),
     "round": ("round", "1", "number of the revolution"),
     "share": ("share", "1", "middle of the eighth of the chord"),
     "motion_time": ("motion_time", "1", "revolutions since the start"),
@@ -501,7 +502,7 @@ def _energies(run: Run) -> dict[str, Any]:
 def _of_friction(run: Run) -> dict[str, Any]:
     """Stability of the blade in sliding contact, and whether it slid."""
     scene, setup = run.scene, run.setup
-    modes = setup.omega, setup.Phi_b, setup.Phi_t
+    modes = sliding_modes(setup.omega, setup.Phi_b, setup.Phi_t, setup.places)
     k, mu = strip_stiffness(scene.liner, setup.places), known(scene.contact.friction, "friction")
     return {
         "mu_crit": mu_crit(modes, k),
@@ -553,7 +554,7 @@ def _of_states(run: Run) -> dict[str, Any]:
     rounds, samples = run.scene.record.rounds_of_states, run.scene.record.samples_per_round
     return {
         "states": run.outcome.states,
-        "P": run.rom.rows(run.setup.places.xi),
+        "P": run.rom.closing_rows(run.setup.places.xi, slope_of(run.rom, run.scene.casing.slope)),
         "time": run.scene.rounds - rounds + np.arange(1, rounds * samples + 1) / samples,
     }
 

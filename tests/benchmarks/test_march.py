@@ -112,7 +112,8 @@ def modal(setup, xi=0.005):
     state, Phi_out = at_start(scheme, setup.strips), padded_rows(setup.Phi_out)
     weights = force_weights(setup.places.ends)
     samples, forces = np.zeros((64, len(Phi_out))), np.zeros((3, len(weights)))
-    recorded = Recorded(samples, forces, np.zeros((0, 0)), Phi_out, weights)
+    both = np.stack([weights, weights])  # of t_N and t_T
+    recorded = Recorded(samples, forces, np.zeros((0, 0)), Phi_out, both)
     arguments = scheme, setup.strips, state, recorded, smooth(0.0), np.inf, 0, setup.steps
     contacts, *_ = for_types_of(march_round, *arguments)(*arguments)
     return setup.steps, contacts

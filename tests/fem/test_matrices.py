@@ -76,9 +76,10 @@ def test_file_of_other_code_is_refused(made, tmp_path, how):
 
 def test_rows_of_fewer_directions(made):
     dense = made.S.toarray()
-    np.testing.assert_array_equal(made.rows(1).toarray(), dense[[0, 3]])
-    np.testing.assert_array_equal(made.rows(2).toarray(), dense[[0, 1, 3, 4]])
-    np.testing.assert_array_equal(made.rows(3).toarray(), dense)
+    np.testing.assert_array_equal(made.rows("r").toarray(), dense[[0, 3]])
+    np.testing.assert_array_equal(made.rows("rt").toarray(), dense[[0, 1, 3, 4]])
+    np.testing.assert_array_equal(made.rows("rtz").toarray(), dense)
+    np.testing.assert_array_equal(made.rows("rz").toarray(), dense[[0, 2, 3, 5]])
 
 
 def test_matrices_have_their_provenance(coarse_blade, coarse_files, coarse_matrices):

@@ -7,8 +7,8 @@ import pytest
 from refused import refused
 
 from geometry.blade import EnrichedBasis
-from geometry.hats import hat_nodes, hats
-from rom.coarser import _projection, coarser
+from geometry.hats import hat_nodes, hats, projection as hats_projection
+from rom.coarser import coarser
 from rom.model import RomError
 from rom.reduce import reduce
 
@@ -91,7 +91,7 @@ def test_static_compliance_of_the_coarse_coefficients_is_that_of_the_model(fine,
 def test_the_projection_is_exact_for_constant_and_linear_fields(coarse_rom, patches):
     """A rigid field of the interface is in W, and c' has its values at the hats' nodes."""
     fine, coarse = hat_nodes(patches), hat_nodes(patches // 2)
-    Pi = _projection(fine, coarse)
+    Pi = hats_projection(fine, coarse)
     np.testing.assert_allclose(Pi @ (2 - 3 * fine), 2 - 3 * coarse, rtol=0, atol=1e-10)
     # midpoints of 4096 shares, where hats have kinks
     np.testing.assert_allclose(Pi, projection(fine, coarse), rtol=0, atol=1e-5)

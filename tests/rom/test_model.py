@@ -11,7 +11,7 @@ from scipy.linalg import eigvalsh
 
 from geometry.project import Provenance, ProvenanceError, code_hash, seal
 from geometry.stored import FORMAT, write
-from rom.model import CODE, Rom, RomError, direction_names
+from rom.model import CODE, DIRECTIONS, Rom, RomError, require_letters
 from simulate.errors.model_errors import ModelErrors
 
 PROVENANCE = Provenance("blade", "5ead", {"patches": 3}, code_hash(*CODE))
@@ -77,7 +77,7 @@ def test_file_without_provenance_as_of_an_older_version_is_refused(rom, tmp_path
 @pytest.mark.parametrize("letters", ["r", "rt", "rtz"])
 def test_displacements_along_the_chord_are_those_of_the_hat_functions(rom, letters):
     """From c = (1, 3) of one direction: linear along the chord, beyond its ends too."""
-    model = replace(rom, directions=direction_names(letters))
+    model = replace(rom, directions=tuple(DIRECTIONS[letter] for letter in letters))
     xi = np.array([0.0, 0.25, 1.0, 1.1])
     for first, letter in enumerate(letters):
         u = np.zeros(model.n)
@@ -102,7 +102,7 @@ def test_line_is_the_camber_line_between_its_places(rom):
 
 @pytest.mark.parametrize("letters", ["", "t", "rz", "rtzz"])
 def test_other_directions_are_refused(letters):
-    assert refused(RomError, direction_names, letters).value == letters
+    assert refused(RomError, require_letters, letters).value == letters
 
 
 def test_modes_diagonalise_both_matrices(rom):

@@ -253,7 +253,8 @@ def _marched(
     ramp, contacts, cpu = ramp_of(scene.casing), 0, 0.0
 
     def of_round(done: int) -> tuple[Callable, tuple[Any, ...]]:
-        recorded = Recorded(u_r[done], force[done], np.zeros((0, 0)), Phi_out, weights)
+        both = np.stack([weights, weights])  # of t_N and t_T
+        recorded = Recorded(u_r[done], force[done], np.zeros((0, 0)), Phi_out, both)
         arguments = scheme, strips, state, recorded, ramp, setup.bound, done, setup.steps
         return for_types_of(march_round, *arguments), arguments
 

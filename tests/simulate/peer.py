@@ -182,11 +182,21 @@ def central_difference(rom: Rom, scene: Scene, Omega: float, steps: int, count: 
     return March(P @ u, liner.l * liner.eps_p, contacts)
 
 
-def piecewise_exact(rom: Rom, scene: Scene, Omega: float, steps: int, count: int) -> March:
-    """Exact modes under a force held over each step: a mean over it, of weight w_end its end."""
+def piecewise_exact(
+    rom: Rom,
+    scene: Scene,
+    Omega: float,
+    steps: int,
+    count: int,
+    P: np.ndarray | None = None,
+) -> March:
+    """Exact modes under a force held over each step: a mean over it, of weight w_end its end.
+
+    ``P`` (m, n): what closes the gaps of the strips by the model's displacements; None: u_r.
+    """
     liner, h, xi = Liner(scene, rom, Omega, steps), 2 * np.pi / Omega / steps, scene.damping_ratio
     squares, Phi = eigh(rom.stiffness(Omega), rom.M)
-    omega, rows = np.sqrt(squares), _over_strips(rom, scene) @ Phi
+    omega, rows = np.sqrt(squares), (_over_strips(rom, scene) if P is None else P) @ Phi
     # q and q' a step later, from both and from the rest under a force, f / omega^2
     free = np.array([expm(h * np.array([[0, 1], [-(w**2), -2 * xi * w]])) for w in omega])
     gain = np.stack([(1 - free[:, 0, 0]) / squares, -free[:, 1, 0] / squares])

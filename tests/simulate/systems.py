@@ -140,7 +140,9 @@ def march_by(
         mu, Phi_t = sliding
         rows = rows_of(Phi_b, np.atleast_2d(Phi_t).astype(float))
         stiffness = system.law.parameters.E * system.area * system.length / system.thickness
-        arrays = friction.sliding(scheme.coefficients(omega, rows, xi, h), mu, stiffness)
+        arrays = friction.sliding(
+            scheme.coefficients(omega, rows, xi, h), np.full(len(stiffness), mu), stiffness
+        )
         system = system._replace(tangential=True)
     state, nodes, n = at_start(arrays, system), len(system.g0), len(omega)
     state.motion.x[0, :n] = first
@@ -151,7 +153,7 @@ def march_by(
     state.motion.u[:] = state.motion.x @ arrays.Phi.T
     start_energy = scheme.energy(omega, xi, h, state.motion, 0)
     u, force = np.zeros((rounds, samples or steps, nodes)), np.zeros((rounds, 3, nodes))
-    of_strips = padded_rows(Phi_b[:nodes]), np.eye(nodes)
+    of_strips = padded_rows(Phi_b[:nodes]), np.stack([np.eye(nodes)] * 2)
     contacts, marched, end = 0, 0, RUNNING
     ramp = ramp or smooth(float(ramp_rounds))
     for done in range(rounds):

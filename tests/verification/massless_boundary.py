@@ -75,9 +75,10 @@ def on_rotor_37() -> Iterator[Row]:
     """Converged runs of both at the design speed, on an oval casing."""
     rom = model("rotor37-fast", 4.0, RICH)
     oval = [{"order": 2, "amplitude_gaps": 1.0}]
-    changed = {"casing__harmonics": oval, "casing__scale": 1.5}
+    changed = {"casing__harmonics": oval, "casing__scale": 1.5, "casing__slope": 0.0}
     of = rub(rom, LAWS["rigid casing"], DESIGN / rom.omega1, **changed)
-    yield from beside("", massless(ALL, of, FINE), exact(of, FINE))
+    dynamic = ALL + len(rom.xi)  # its tip tapers: the model has axial DoFs as well
+    yield from beside("", massless(dynamic, of, FINE), exact(of, FINE))
 
 
 def beside(at: str, theirs: Run, ours: Run) -> Iterator[Row]:
@@ -221,8 +222,9 @@ ROTOR_37 = Case(
     title="Rub of rotor 37 on a rigid casing",
     source=SOURCE,
     compared="NASA rotor 37 (elements of 4 mm, 60 natural modes) at 1800 rad/s in an oval rigid "
-    f"casing, largest 1.5 gaps inward; 20 revolutions from rest, {FINE} steps per revolution, "
-    f"{ALL} dynamic modes in theirs ({SHARED}).",
+    f"casing, largest 1.5 gaps inward, along the radius (the massless boundary is that of u_r); 20 "
+    f"revolutions from rest, {FINE} steps per revolution, "
+    f"{ALL} dynamic modes in theirs, and as many more as axial DoFs ({SHARED}).",
     reason="the inertia of the modes that are static in theirs.",
     rows=on_rotor_37,
     by=BY,

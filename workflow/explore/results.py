@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from simulate.contact.places import slope_of
 from simulate.errors.signals import leading_gap, lobe_count
 from simulate.scene import LEADING
 from simulate.sweeps import peak
@@ -47,7 +48,9 @@ def arrays(response: Response) -> Arrays:
     if "envelope" in sweep:
         by_name["history"] = sweep["envelope"].values / gap
     if "motion" in sweep:
-        by_name["signal"] = sweep["motion"].values @ response.rom.rows(np.array([LEADING]))[0] / gap
+        slope = slope_of(response.rom, response.scene.casing.slope)
+        row = response.rom.closing_rows(np.array([LEADING]), slope)[0]
+        by_name["signal"] = sweep["motion"].values @ row / gap
     return by_name
 
 

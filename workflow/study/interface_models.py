@@ -58,7 +58,7 @@ def numbers(files: Any, blade: str, scene: Row) -> list[Row]:
 
 def _row(fom: Matrices, solid: Solid, rom: Rom, T: NDArray) -> Row:
     constant, linear = _kept(fom, solid)
-    S = fom.rows(1)
+    S = fom.rows("r")
     full = compliance_of_strips(S @ ShiftInvert(fom.K[0], fom.M).solve(S.T.toarray()))
     n = len(full)
     P = rom.rows(middles(n))
@@ -80,7 +80,7 @@ def _kept(fom: Matrices, solid: Solid) -> tuple[float, float]:
     tip = tip_of(solid.tip, solid.V.tabulate_dof_coordinates())
     x, y, _ = fom.coordinates.T
     radial = np.column_stack([x, y, 0 * x]) / np.hypot(x, y)[:, None]
-    S = fom.rows(1)
+    S = fom.rows("r")
     constant = S @ radial.ravel() - 1
     linear = S @ (radial * tip.xi(fom.coordinates)[:, None]).ravel() - fom.xi
     return float(np.abs(constant).max()), float(np.abs(linear).max())

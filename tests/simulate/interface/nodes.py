@@ -64,7 +64,7 @@ def numbers(files: Any, blade: str, scenes: dict[str, Row]) -> list[Row]:
     xi = nodes.places.xi
     rom, _ = reduce(fom, settings.basis, "r")
     of_nodes, T = reduce(replace(fom, S=nodes.S, xi=xi), settings.basis, "r")
-    at_leading = hats(leading, rom.xi) @ (fom.rows(1) @ T)
+    at_leading = hats(leading, rom.xi) @ (fom.rows("r") @ T)
     moving = {
         "on their own": Moves(of_nodes, np.eye(len(xi), of_nodes.n), at_leading),
         "as the patches": Moves(rom, rom.rows(xi), rom.rows(leading)),
@@ -92,7 +92,7 @@ def _nodes(blade: Blade, camber: NDArray[np.float64], mesh: str | Path) -> Nodes
     there = np.bincount(station, area, STATIONS + 1)
     width = np.diff(on_line(camber, _ends())[:, 2])[station] * (area / there[station]) * across
     radius, theta = np.hypot(x, y), np.arctan2(y, x)
-    return Nodes(S, Places(np.array([0.0, 1.0]), xi, radius, theta, width), across, station)
+    return Nodes(S, Places(np.array([0.0, 1.0]), xi, radius, theta, width, 0 * xi), across, station)
 
 
 def _ends() -> NDArray[np.float64]:

@@ -111,7 +111,7 @@ def fails(setup: Setup, xi: float, k: NDArray[np.float64], h: float) -> bool:
     state.motion.u[:] = state.motion.x @ scheme.Phi.T
     samples = np.zeros((SAMPLES, m))
     recorded = Recorded(
-        samples, np.zeros((3, 0)), np.zeros((0, 0)), padded_rows(Phi_b), np.zeros((0, m))
+        samples, np.zeros((3, 0)), np.zeros((0, 0)), padded_rows(Phi_b), np.zeros((2, 0, m))
     )
     arguments = scheme, strips, state, recorded, smooth(0.0), 1.0, 0, STEPS
     *_, end, _ = for_types_of(march_round, *arguments)(*arguments)
