@@ -9,7 +9,7 @@ from fem.cholesky import Cholesky
 from fem.interface import interface_of
 from fem.matrices import CODE, Constants, Matrices, Prestressed
 from fem.prestress import linear_states, mass, nonlinear_states
-from fem.solid import read_solid
+from fem.solid import Solid, read_solid
 from geometry.blade import Blade
 from geometry.project import Provenance, code_hash, file_hash
 
@@ -30,6 +30,7 @@ def over_speeds(
     mesh_path: str | Path,
     speeds: Iterable[float],
     cholesky: Cholesky | None = None,
+    solid: Solid | None = None,
 ) -> tuple[Constants, Iterator[Prestressed]]:
     """M and S, and the state at each of the ``speeds`` (rad/s), taken when it is asked for.
 
@@ -38,6 +39,7 @@ def over_speeds(
     name : name of the blade, for the provenance
     speeds : ascending, but for those between equilibria that are known
     cholesky : holds the factor of K of each state, with prestress `nonlinear`; see there
+    solid : the mesh, where it is read already
 
     Raises
     ------
@@ -46,7 +48,7 @@ def over_speeds(
     geometry.project.errors.MeshError
         When the facets of the tip do not allow the interface.
     """
-    solid = read_solid(str(mesh_path), blade.material)
+    solid = solid or read_solid(str(mesh_path), blade.material)
     interface = interface_of(solid, blade)
     hub = solid.clamped_coordinates()
     constants = Constants(

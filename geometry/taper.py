@@ -11,9 +11,9 @@ FLAT = 1e-5  # m, from one plane: a tip within was cut by a plane
 LEAST = 0.002  # smaller slopes count as 0: they change what closes the gap by less than 3 %
 
 
-def slope_of_line(line: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Slope dr/dz (places,) of a camber line (places, 3), r, theta, z at equally spaced xi."""
-    return counted(np.gradient(line[:, 0], line[:, 2]))
+def slope_of_line(r: NDArray[np.float64], z: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Slope dr/dz (places,) of a line of radii ``r`` (places,), m, at ascending ``z``, m."""
+    return counted(np.gradient(r, z))
 
 
 def slope_of_tip(nodes: NDArray[np.float64], line: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -25,7 +25,7 @@ def slope_of_tip(nodes: NDArray[np.float64], line: NDArray[np.float64]) -> NDArr
     centred = nodes - nodes.mean(axis=0)
     normal = np.linalg.svd(centred, full_matrices=False)[2][-1]
     if len(nodes) < 4 or abs(centred @ normal).max() > FLAT:
-        return slope_of_line(line)
+        return slope_of_line(line[:, 0], line[:, 2])
     theta = line[:, 1].mean()
     outward = normal[:2] @ [np.cos(theta), np.sin(theta)]
     return counted(np.full(len(line), -normal[2] / outward))

@@ -19,6 +19,7 @@ from geometry.project import MeshError
 NEAR_ENDS = np.array([0.01, 0.02, 0.03])  # chord fractions, behind most of a blunt or round edge
 TO_END = np.array([3.0, -3.0, 1.0])  # parabolic extrapolation from there to the end of the chord
 PLACES = 101  # of the camber line; they include NEAR_ENDS
+EDGES = (1 / 16, 15 / 16)  # chord fractions at which gaps and outputs are given
 TURNS = 6  # iterations of the chord's direction; the error falls by edge radius over chord in each
 
 

@@ -37,6 +37,16 @@ class RomCheck(Stored):
     # relative, of frequencies, between the speeds of matrices from elsewhere; nan: not known
     between: float = stored(may_be_nan=True)
     provenance: Provenance  # that of the reduced model
+    # of the full model, see there
+    tip: NDArray[np.float64] = stored(
+        "bent_speed rtz edge bent_mode", "kg-1/2", default_factory=lambda: np.empty((0, 3, 2, 0))
+    )
+    second_order: NDArray[np.float64] = stored(
+        "bent_speed edge bent_mode",
+        "m-1 kg-1",
+        default_factory=lambda: np.empty((0, 2, 0)),
+        may_be_nan=True,
+    )
 
     @property
     def error(self) -> NDArray[np.float64]:
@@ -141,6 +151,8 @@ def check(rom: Rom, full: FullModel) -> RomCheck:
         highest=float(np.nanmax(reduced)),
         between=error_between(rom.M, K, full.speeds) if elsewhere else np.nan,
         provenance=rom.provenance,
+        tip=full.tip,
+        second_order=full.second_order,
     )
 
 

@@ -42,8 +42,10 @@ def coarser(rom: Rom) -> tuple[Rom, NDArray[np.float64]]:
     at_speeds = [_components(rom, Omega, S, modes) for Omega in basis_speeds(basis, rom.Omega_m)]
     T = enriched_basis(at_speeds, S, rom.stiffness(0.0), rom.M, basis.rank_tolerance)
     K = np.stack([project(K, T) for K in rom.K])
-    growth = rom.growth @ along.T if rom.growth.size else rom.growth
-    return replace(rom, M=project(rom.M, T), K=K, xi=nodes, growth=growth, gauges=()), T
+    growth, advance = (part @ along.T if part.size else part for part in (rom.growth, rom.advance))
+    reduced = {"M": project(rom.M, T), "K": K, "u_t": rom.u_t.reshape(-1, rom.n) @ T}
+    of_tip = {"xi": nodes, "growth": growth, "advance": advance}
+    return replace(rom, **reduced, **of_tip, gauges=()), T
 
 
 def _components(rom: Rom, Omega: float, S: NDArray[np.floating], modes: int) -> Components:

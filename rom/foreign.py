@@ -24,7 +24,10 @@ from rom.model import CODE, DIRECTIONS, Rom, RomError
 
 NAMES = tuple(DIRECTIONS.values())
 ALLOWED = (NAMES[:1], NAMES[:2], NAMES, NAMES[::2])  # of the interface DoFs
-OPTIONAL = ("points", "f1", "growth", "speeds", "slope", "gauges", "gauge_rows")
+OPTIONAL = (
+    *("points", "f1", "growth", "advance", "speeds", "slope", "u_t"),
+    *("gauges", "gauge_rows"),
+)
 PAGE = "rom/README.md, A reduced model from elsewhere,"
 SPEEDS = 33  # over [0, Omega_m], at which K must be positive definite
 DEFINITE = 1e-14  # of the largest eigenvalue: round-off
@@ -152,7 +155,7 @@ def _values(path: str | Path) -> dict[str, Any]:
 
 def _rom(variables: dict[str, Any], blade: str, mesh: str) -> Rom:
     """The model of the values in a file, with the settings by which a coarser one is made."""
-    arrays = ("M", "K", "xi", "points", "camber", "growth", "speeds", "slope")
+    arrays = "M", "K", "xi", "points", "camber", "growth", "advance", "speeds", "slope", "u_t"
     values: dict[str, Any] = {
         "points": np.empty((0, 3)),
         **{name: np.asarray(variables[name], float) for name in arrays if name in variables},
@@ -211,9 +214,10 @@ def _shape_faults(rom: Rom, power: NDArray) -> list[str]:
             f"slope {rom.slope.shape}: needs one for each place of camber",
         ),
         (
-            not rom.growth.size or rom.growth.shape[1:] == rom.xi.shape,
-            f"growth {rom.growth.shape}: needs (powers, {len(rom.xi)})",
+            all(not of.size or of.shape[1:] == rom.xi.shape for of in (rom.growth, rom.advance)),
+            f"growth {rom.growth.shape}, advance {rom.advance.shape}: need (powers, {len(rom.xi)})",
         ),
+        (rom.u_t.size in (0, 2 * n), f"u_t {rom.u_t.shape}: needs (2, {n})"),
         (
             all(np.isfinite(values).all() for values in held),
             "holds values that are not finite",

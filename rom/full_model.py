@@ -1,6 +1,6 @@
 """``full-model.nc``: results of the full model with which a reduced model is compared."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from typing import Self
 
@@ -12,10 +12,15 @@ from fem.matrices import CODE, Constants, Prestressed
 from geometry.hats import hat_nodes, hats, middles
 from geometry.project import Provenance
 from geometry.stored import Stored, frozen, stored
+from geometry.tip import EDGES, on_line
 from rom.modes import ShiftInvert
 
 MODES = 10  # frequencies compared
 SHAPES = 5  # mode shapes at rest, for figures
+BENT = 3  # modes whose second order is computed
+
+
+type Along = Callable[[NDArray, NDArray, NDArray], float]  # ``SecondOrder.along``
 
 
 @frozen
@@ -32,11 +37,22 @@ class FullModel(Stored):
     shapes: NDArray[np.float64] = stored("shape point xyz", "kg-1/2")  # modes at rest, Cartesian
     coordinates: NDArray[np.float64] = stored("point xyz", "m")  # free nodes of the mesh
     provenance: Provenance  # that of the matrices
+    # of the first modes at ``EDGES``, per modal displacement: u_r, u_t, u_z, and per square of it
+    # the change of the tip's radius of second order; nan: not known
+    tip: NDArray[np.float64] = stored(
+        "bent_speed rtz edge bent_mode", "kg-1/2", default_factory=lambda: np.empty((0, 3, 2, 0))
+    )
+    second_order: NDArray[np.float64] = stored(
+        "bent_speed edge bent_mode",
+        "m-1 kg-1",
+        default_factory=lambda: np.empty((0, 2, 0)),
+        may_be_nan=True,
+    )
 
     def joined(self, other: Self) -> Self:
         """With the results of ``other``, at further speeds."""
         order = np.argsort(np.concatenate([self.speeds, other.speeds]))
-        names = "speeds", "omega", "residuals", "compliance"
+        names = "speeds", "omega", "residuals", "compliance", "tip", "second_order"
         both = {
             name: np.concatenate([getattr(model, name) for model in (self, other)])
             for name in names
@@ -45,7 +61,10 @@ class FullModel(Stored):
 
 
 def solve(
-    fom: Constants, states: Iterable[Prestressed], cholesky: Cholesky | None = None
+    fom: Constants,
+    states: Iterable[Prestressed],
+    cholesky: Cholesky | None = None,
+    along: Along | None = None,
 ) -> FullModel:
     """First modes, and compliance of the interface, at every state.
 
@@ -53,6 +72,7 @@ def solve(
     ----------
     states : at ascending speeds; one at a time is kept
     cholesky : factorises K of the states, unless it holds the factor already
+    along : of ``fem.second_order``; None: the second order is not known
 
     Raises
     ------
@@ -60,15 +80,27 @@ def solve(
         When K is not positive definite, or modes do not converge.
     """
     cholesky, loads = cholesky or Cholesky(), fom.S.T.toarray()
+    edges = np.stack([hats(EDGES, fom.xi) @ fom.rows(letter) for letter in "rtz"])
+    radius = on_line(fom.camber, np.array(EDGES))[:, :1]
     rows: list[tuple] = []
     shapes: list[NDArray[np.float64]] = []  # at rest, once known
     for state in states:
         inverse = ShiftInvert(state.K, fom.M, cholesky)
         modes = inverse.modes(MODES)
         compliance = fom.S @ inverse.solve(loads)
-        rows.append((state.speed, modes.omega, modes.residuals, compliance))
+        Phi, omega = modes.Phi[:, :BENT], modes.omega[:BENT]
+        tip = edges @ Phi
+        second = np.full(tip.shape[1:], np.nan)
+        if along:
+            loaded = inverse.solve(edges[0].T)
+            for edge, mode in np.ndindex(*second.shape):
+                # the mode itself leaves the static field: its amplitude is given
+                x = loaded[:, edge] - Phi[:, mode] * tip[0, edge, mode] / omega[mode] ** 2
+                second[edge, mode] = along(state.u_static, x, Phi[:, mode])
+        second += tip[1] ** 2 / 2 / radius
+        rows.append((state.speed, modes.omega, modes.residuals, compliance, tip, second))
         shapes = shapes or [modes.Phi]
-    speeds, omega, residuals, compliances = map(np.array, zip(*rows, strict=True))
+    speeds, omega, residuals, compliances, tip, second = map(np.array, zip(*rows, strict=True))
     return FullModel(
         speeds=speeds,
         omega=omega,
@@ -77,6 +109,8 @@ def solve(
         shapes=shapes[0][:, :SHAPES].T.reshape(SHAPES, -1, 3),
         coordinates=fom.coordinates,
         provenance=fom.provenance,
+        tip=tip,
+        second_order=second,
     )
 
 

@@ -13,7 +13,7 @@ from geometry.hats import hats, middles, projection
 from geometry.project import Provenance, UserError
 from geometry.stored import Stored, frozen, stored
 from geometry.taper import slope_of_line
-from geometry.tip import on_line
+from geometry.tip import EDGES, on_line
 from rom.polynomial import evaluate, interpolate
 
 CODE = ("fem.assemble", "rom.between", "rom.reduce")  # modules that compute its numbers
@@ -92,12 +92,25 @@ class Rom(Stored):
         default_factory=lambda: np.empty((0, 0)),
         long_name="static growth of the tip's radius",
     )
+    # (powers, n_c): axial displacement of a tip that tapers there, likewise; else (0, n_c)
+    advance: NDArray[np.float64] = stored(
+        "advance_power growth_xi",
+        "m (rad s-1)^-power",
+        default_factory=lambda: np.empty((0, 0)),
+        long_name="static axial displacement of the tip",
+    )
     # of its basis, at which K(Omega) is that of the full model, ascending; empty: not known
     speeds: NDArray[np.float64] = stored(
         "speed", "rad s-1", default_factory=lambda: np.empty(0), long_name="speeds of the basis"
     )
     # (places,): slope dr/dz of the tip at the places of ``camber``; (0,): that of ``camber``
     slope: NDArray[np.float64] = stored("slope_place", default_factory=lambda: np.empty(0))
+    # (2, n): rows of u_t at ``EDGES``, of a tip that tapers; else (0, n)
+    u_t: NDArray[np.float64] = stored(
+        "edge timed_dof",
+        default_factory=lambda: np.empty((0, 0)),
+        long_name="tangential displacement at xi = 1/16 and 15/16, which blade tip timing measures",
+    )
     # names of the grids of strain gauges; none but in a model that is made for a scene
     gauges: tuple[str, ...] = stored("gauge", default_factory=tuple)
     # (powers, 2, gauges, 1 + n), sum Omega^power gauge_rows: strain along each grid, 1, and stress
@@ -179,7 +192,8 @@ class Rom(Stored):
     @property
     def taper(self) -> NDArray[np.float64]:
         """Slope dr/dz (places,) of the tip at equally spaced xi from 0 to 1."""
-        return self.slope if self.slope.size else slope_of_line(self.camber)
+        r, _, z = self.camber.T
+        return self.slope if self.slope.size else slope_of_line(r, z)
 
     def closing_rows(
         self, xi: NDArray[np.float64], slope: NDArray[np.float64]
@@ -203,6 +217,13 @@ class Rom(Stored):
         else:
             N = projection(self.xi, self.xi, slope)
         return self.rows(xi) - hats(xi, self.xi) @ N @ axial
+
+    @property
+    def timing_rows(self) -> NDArray[np.float64]:
+        """Rows of u_t (2, n) at ``EDGES``; (0, n) where the model does not know them."""
+        if DIRECTIONS["t"] in self.directions:
+            return self.rows(np.array(EDGES), "t")
+        return self.u_t.reshape(-1, self.n)
 
     def require_directions(self, letters: str) -> None:
         """Refuse a model without the interface DoFs "r", "rt" or "rtz".
@@ -256,6 +277,12 @@ class Rom(Stored):
         if not self.growth.size:
             raise RomError("the reduced model does not hold the growth of its tip with speed")
         return hats(xi, self.xi) @ evaluate(self.growth, Omega)
+
+    def advance_at(self, xi: NDArray[np.float64], Omega: float) -> NDArray[np.float64]:
+        """Static axial displacement (k,), m, at chord fractions ``xi`` (k,); 0 without taper."""
+        if not self.advance.size:
+            return np.zeros(len(xi))
+        return hats(xi, self.xi) @ evaluate(self.advance, Omega)
 
     @lru_cache(KEPT)  # noqa: B019  models are few, and leave with their last speed
     def modes(self, Omega: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -7,7 +7,9 @@ from scipy.sparse import csr_matrix
 
 from fem.matrices import Matrices
 from geometry.blade import EnrichedBasis, PaperBasis, settings_of_basis
+from geometry.hats import hats
 from geometry.project import Say, counted, silent
+from geometry.tip import EDGES
 from rom.basis import Components, enriched_basis, paper_basis, project
 from rom.model import CODE, DIRECTIONS, Rom, require_letters
 from rom.modes import ModesError, ShiftInvert
@@ -62,6 +64,8 @@ def reduce(
         f1=float(np.sqrt(lowest) / (2 * np.pi)),
         span=fom.span,
         growth=growth_of(fom),
+        advance=advance_of(fom) if slope.any() else np.empty((0, len(fom.xi))),
+        u_t=hats(EDGES, fom.xi) @ (fom.rows("t") @ T) if slope.any() else np.empty((0, len(M))),
         speeds=fom.speeds,
         provenance=fom.provenance.made(CODE, basis=settings_of_basis(basis), directions=directions),
     )
@@ -98,6 +102,13 @@ def growth_of(fom: Matrices) -> NDArray[np.float64]:
     grown = np.hypot(x + u[..., 0], y + u[..., 1]) - r
     radial = (grown[..., None] * e_r).reshape(len(u), -1)
     return interpolate((fom.S[::3] @ radial.T).T, fom.speeds)
+
+
+def advance_of(fom: Matrices) -> NDArray[np.float64]:
+    """Coefficients (powers, n), m, of the axial displacement of the tip, as those of the growth."""
+    if np.isnan(fom.u_static).any():
+        return np.empty((0, len(fom.xi)))
+    return interpolate((fom.S[2::3] @ fom.u_static.T).T, fom.speeds)
 
 
 def natural_components(K: csr_matrix, M: csr_matrix, S: csr_matrix, modes: int) -> Components:

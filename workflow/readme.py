@@ -365,9 +365,10 @@ def _choices(names: Iterable[str]) -> str:
 
 def _allowed(values: list[Schema]) -> str:
     """Choices, keys or bounds of a value and of its items."""
+    plain = "list" if any(value.get("type") == "array" for value in values) else "number"
     for value in values:
         if "properties" in value:
-            return f"list, or {_choices(value['properties'])}"
+            return f"{plain}, or {_choices(value['properties'])}"
     choices = [
         *(name for value in values for name in value.get("enum", [])),
         *(value["const"] for value in values if "const" in value),

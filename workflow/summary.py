@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from geometry.blade import RPM_PER_HZ
 from geometry.project import csv_text, read_json
+from geometry.tip import EDGES
+from simulate.errors.beyond_linear import BEYOND
 from simulate.errors.neighbour import CHAOTIC, ONE_MOTION, TWO_MOTIONS
 from simulate.scene import DYING_OUT, GROWING, TRENDS
 from simulate.sweeps.plain import Course
@@ -43,6 +45,9 @@ class Column(NamedTuple):
 COLUMNS = (  # of the numbers of ``sweeps.peak_results``
     Column("amplitude", "um", 1e6, "amplitude µm"),
     Column("displacement", "um", 1e6, "largest µm"),
+    Column("u_t_leading", "um", 1e6, "u_t at 1/16 µm"),
+    Column("u_t_trailing", "um", 1e6, "at 15/16 µm"),
+    Column("second_order", "1", 1.0, "second order / gap"),
     Column("wear", "um", 1e6, "wear µm"),
     Column("worn_volume", "mm3", 1e9, "worn mm³"),
     Column("opening", "um", 1e6, "mean worn depth µm"),
@@ -60,6 +65,15 @@ MEANING = {  # of the columns
     "amplitude": "of the tip's radial displacement at ξ = 1/16, along the engine order EO, over "
     "the last revolutions of the run",
     "largest": "largest |u_r| there in the whole run, and the revolution of it",
+    "at ξ = 15/16": "on a casing that tapers the motion is u_r - s u_z, s = dr/dz, at ξ = 1/16 or "
+    "15/16, whichever moves more",
+    "u_t": "half the range of the tangential displacement in the last revolution, at both edges: "
+    "what blade tip timing measures",
+    "second order": "change of the tip's radius with the square of the largest displacement (a "
+    "blade that bends shortens), the larger of both edges, over the gap; contact does not know it",
+    BEYOND: "it exceeds a tenth of the motion, or the tip moves along the axis by more than half a "
+    "strip's width: to model it needs the square of the motion in the gap, and strips that the tip "
+    "changes as it moves",
     "wear": "deepest, mean over the leading eighth of the chord",
     "mean worn depth": "worn volume over the area that the tip sweeps",
     "force": "mean normal force on the chord over the revolutions; peak force: the largest on an "
@@ -104,6 +118,7 @@ COPIED = (
 COURSE = {  # of ``Course``: unit and its scale from SI
     "time_constant": ("rounds", 1.0),
     "largest_round": ("round", 1.0),
+    "place": ("xi", 1.0),
     "wears": ("mm3 per round", 1e9),
 }
 
@@ -203,7 +218,7 @@ def _row(results: Mapping[str, Any], peak: "Peak", stress: Mapping[str, Any]) ->
         "over_crossing": peak.crossing and peak.over_crossing,
         "bound": peak.at_end,
         "status": peak.status,
-        "word": peak.verdict or peak.status,
+        "word": ", ".join(filter(None, [peak.verdict or peak.status, peak.beyond])),
         "lobes": peak.lobes,
         "course": peak.course,
         "unknown": _unknown(results["model_error"], peak.parts),
@@ -363,9 +378,11 @@ def _cell(row: PeakRow, column: Column) -> str:
     number = column.number(value, error, least=_in_part(row, column.name))
     further = "" if other is None else f" or {column.number(other, error).shown}"
     goes_on = f", {row['course'].get('trend')}" if column.name == "amplitude" and moves(row) else ""
+    at_trailing = row["course"].get("place") == EDGES[1] and column.name == "amplitude"
+    where = " at ξ = 15/16" * at_trailing
     revolution = row["course"].get("largest_round") if column.name == "displacement" else None
     revolution_text = f" (rev. {revolution:.0f})" if revolution else ""
-    return f"{number.shown}{further} {number.share}{goes_on}".rstrip() + revolution_text
+    return f"{number.shown}{further} {number.share}{goes_on}".rstrip() + revolution_text + where
 
 
 def _in_part(row: PeakRow, name: str) -> bool:

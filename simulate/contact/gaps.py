@@ -3,68 +3,106 @@
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from geometry.project import Fault
+from geometry.project import Fault, known
 from rom.model import Rom
-from simulate.scene import Clearance
+from simulate.contact.places import slope_at
+from simulate.scene import Gaps
+from simulate.scene.tables import Shift
 
-KNOWN = 1e-9  # relative, by which a speed may lie outside the table of thermal growth
+KNOWN = 1e-9  # relative, by which a speed may lie outside a table over the speed
 
 
-def gaps_at(clearance: Clearance, rom: Rom, xi: ArrayLike, Omega: float) -> NDArray[np.float64]:
+def given_gaps(of: Gaps, rom: Rom, xi: ArrayLike) -> NDArray[np.float64]:
+    """Gaps as given, m, of the shape of the chord fractions ``xi``: `casing.line` less the tip."""
+    line, xi = of.casing.line, np.asarray(xi, dtype=float)
+    if line is None:
+        return known(of.clearance, "clearance").gaps(xi, rom.span)
+    r, _, z = rom.line(xi.ravel()).T
+    return (line.radius(z) - r).reshape(xi.shape)
+
+
+def gaps_at(of: Gaps, rom: Rom, xi: ArrayLike, Omega: float) -> NDArray[np.float64]:
     """Gaps g0 (m), of the shape of the chord fractions ``xi``, at ``Omega`` (rad/s).
 
-    With `clearance.at: rest` the tip has grown by its static equilibrium and with its temperature.
+    Given at rest, the tip has grown by its static equilibrium and with its temperature. On a casing
+    that tapers the tip's axial displacement changes them too: its static one, and the shift of the
+    rotor.
     """
-    given, xi = clearance.gaps(xi, rom.span), np.asarray(xi, dtype=float)
-    if not clearance.at_rest:
-        return given
-    thermal, grown = clearance.thermal_growth, rom.growth_at(xi.ravel(), Omega).reshape(xi.shape)
-    return given - (grown + (thermal.growth(Omega, rom.f1) if thermal else 0.0))
+    xi = np.asarray(xi, dtype=float)
+    gaps, along = given_gaps(of, rom, xi), xi.ravel()
+    moved = of.casing.shift(Omega, rom.f1) + (rom.advance_at(along, Omega) if of.at_rest else 0.0)
+    if np.any(moved):
+        gaps = gaps + _opened(of, rom, along, moved).reshape(xi.shape)
+    if not of.at_rest:
+        return gaps
+    thermal = of.clearance.thermal_growth if of.clearance else None
+    grown = rom.growth_at(along, Omega).reshape(xi.shape)
+    return gaps - (grown + (thermal.at(Omega, rom.f1) if thermal else 0.0))
+
+
+def _opened(
+    of: Gaps, rom: Rom, xi: NDArray[np.float64], moved: NDArray[np.float64] | float
+) -> NDArray[np.float64]:
+    """Radius (k,), m, that the casing has more where the tip is after it ``moved`` downstream, m.
+
+    s times it on a casing of slope s.
+    """
+    if (line := of.casing.line) is None:
+        return slope_at(rom, of.casing, xi) * moved
+    z = rom.line(xi)[:, 2]
+    return line.radius(z + moved) - line.radius(z)
 
 
 def growth_fault(
-    clearance: Clearance, rom: Rom, xi: NDArray[np.float64], speeds: NDArray[np.float64]
+    of: Gaps, rom: Rom, xi: NDArray[np.float64], speeds: NDArray[np.float64]
 ) -> list[Fault]:
-    """The fault of a gap at rest that the tip outgrows at one of ``speeds`` (rad/s); or none.
+    """The fault of a gap that growth or shift close at one of ``speeds`` (rad/s); or none.
 
     ``xi``: chord fractions at which the tip meets the strips.
     """
-    if not clearance.at_rest or not speeds.size:
+    clearance, shift = of.clearance, of.casing.axial_shift_um
+    if not (of.at_rest or shift) or not speeds.size:
         return []
-    if not rom.growth.size:
+    key = "clearance" if of.casing.line is None else "casing.line"
+    if of.at_rest and not rom.growth.size:
         return [
             Fault(
                 "the reduced model does not know the growth of its tip with speed; allowed is "
                 "running, with the gaps in operation",
-                "clearance.at",
+                "clearance.at" if key == "clearance" else key,
                 "rest",
                 ["running"],
             )
         ]
-    if thermal := clearance.thermal_growth:
-        first, last = thermal.range(rom.f1)
+    tables = {
+        "clearance.thermal_growth": clearance and clearance.thermal_growth,
+        "casing.axial_shift_um": shift if isinstance(shift, Shift) else None,
+    }
+    for name, table in tables.items():
+        first, last = table.range(rom.f1) if table else (0.0, np.inf)
         for Omega in speeds:
             if not first * (1 - KNOWN) <= Omega <= last * (1 + KNOWN):
                 return [
                     Fault(
                         f"covers {first:.6g} to {last:.6g} rad/s, not the {Omega:.6g} rad/s of "
                         "speeds: add rows",
-                        "clearance.thermal_growth",
+                        name,
                         allowed=(first, last),
                     )
                 ]
-    gaps = np.array([gaps_at(clearance, rom, xi, Omega) for Omega in speeds])
+    gaps = np.array([gaps_at(of, rom, xi, Omega) for Omega in speeds])
     at, i = np.unravel_index(gaps.argmin(), gaps.shape)
-    if gaps[at, i] >= 0:
+    Omega, given = speeds[at], float(given_gaps(of, rom, xi[i]))
+    if not gaps[at, i] < 0 <= given:
         return []
-    Omega, given = speeds[at], float(clearance.gaps(xi[i], rom.span))
+    closes = "the tip grows" if of.at_rest else "the shift of the rotor closes it"
     return [
         Fault(
-            f"the gap at rest is {given:.4g} m at xi = {xi[i]:.3g}, and the tip grows there by "
-            f"{given - gaps[at, i]:.4g} m at {Omega:.6g} rad/s "
+            f"the gap {'at rest ' if of.at_rest else ''}is {given:.4g} m at xi = {xi[i]:.3g}, "
+            f"and {closes} there by {given - gaps[at, i]:.4g} m at {Omega:.6g} rad/s "
             f"({Omega / rom.omega1:.4g} f1(0)): contact before the casing distorts; "
-            "allowed from that growth, or lower speeds",
-            "clearance",
+            "allowed from that, or lower speeds",
+            key,
             allowed={"ge": given - gaps[at, i]},
         )
     ]

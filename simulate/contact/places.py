@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geometry.hats import middles
-from geometry.taper import counted
 from rom.model import Rom
+from simulate.scene import Casing
 
 SHARES = 8  # equal parts of the chord, over which outputs are averaged
 
@@ -41,26 +41,27 @@ def volume_of(
     return 2 * np.pi * depth @ (width * radius)
 
 
-def slope_of(rom: Rom, given: float | None) -> NDArray[np.float64]:
-    """Slope dr/dz (places,) of the casing at equally spaced xi: ``given``, or that of the tip."""
-    taper = rom.taper
-    return taper if given is None else counted(np.full(len(taper), given))
-
-
-def strip_places(rom: Rom, strips: int, given: float | None = None) -> Places:
-    """Places of ``strips`` equal strips; on an interface of points, one strip per point.
-
-    ``given``: slope of the casing; None: that of the tip.
-    """
+def strip_places(rom: Rom, strips: int, casing: Casing) -> Places:
+    """Places of ``strips`` equal strips; on an interface of points, one strip per point."""
     if rom.of_points:
         xi, ends = rom.xi, np.concatenate([[0], (rom.xi[1:] + rom.xi[:-1]) / 2, [1]])
         radius, theta, _ = rom.points.T
     else:
         xi, ends = middles(strips), np.linspace(0, 1, strips + 1)
         radius, theta, _ = rom.line(xi).T
-    slope = slope_of(rom, given)
-    at_strips = np.interp(xi, np.linspace(0, 1, len(slope)), slope)
-    return Places(ends, xi, radius, theta, np.diff(rom.line(ends)[:, 2]), at_strips)
+    slope = slope_at(rom, casing, xi)
+    return Places(ends, xi, radius, theta, np.diff(rom.line(ends)[:, 2]), slope)
+
+
+def slope_at(rom: Rom, casing: Casing, xi: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Slope dr/dz of the casing at chord fractions ``xi``, of their shape."""
+    slope = casing.slope_along(rom.camber, rom.taper)
+    return np.interp(xi, np.linspace(0, 1, len(slope)), slope)
+
+
+def closing_rows(rom: Rom, casing: Casing, xi: NDArray[np.float64]) -> NDArray[np.float64]:
+    """P (k, n): u_r - s u_z = P u at chord fractions ``xi`` (k,), s the slope of the casing."""
+    return rom.closing_rows(xi, casing.slope_along(rom.camber, rom.taper))
 
 
 def share_weights(ends: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -27,6 +27,8 @@ type Numbers = dict[str, float]
 NUMBERS = {  # of a run: unit, meaning
     "amplitude": ("m", "amplitude of u_r at xi = 1/16: along an engine order, or largest"),
     "displacement": ("m", "largest |u_r| at xi = 1/16 of all revolutions"),
+    "u_t_leading": ("m", "half the range of u_t at xi = 1/16 in the last revolution"),
+    "u_t_trailing": ("m", "half the range of u_t at xi = 15/16 in the last revolution"),
     "wear": ("m", "deepest wear of the leading eighth of the chord (its mean)"),
     "wear_mean": ("m", "wear there, mean around the casing"),
     "wear_anywhere": ("m", "deepest wear of all rods"),
@@ -130,6 +132,7 @@ def numbers(run: Run, k: int | None = None) -> Numbers:
         result["amplitude"] = float(amplitude(bins, record.spectrum_rounds, k))
     if isfinite(largest := outcome.each.largest[0]):
         result["displacement"] = largest
+    result |= dict(zip(("u_t_leading", "u_t_trailing"), map(float, outcome.u_t), strict=False))
     wear = outcome.wear.astype(np.float32)
     where = wear, run.setup.places.width, run.setup.places.radius
     profile = by_share(wear, outcome.ends)[0]

@@ -6,14 +6,15 @@ from math import ceil
 import numpy as np
 from numpy.typing import NDArray
 
+from geometry.hats import middles
 from geometry.project import Fault
 from rom.model import DIRECTIONS, Rom
-from simulate.contact.gaps import growth_fault
+from simulate.contact.gaps import given_gaps, growth_fault
 from simulate.contact.law_check import fault
 from simulate.contact.places import strip_places
 from simulate.contact.strips import rods_in_footprint
 from simulate.marching.setup import SceneError, edge_slope, least_gap
-from simulate.scene import Clearance, Contact, Liner, Profile, Scene, Speeds
+from simulate.scene import Casing, Contact, Gaps, Liner, Profile, Scene, Speeds
 from simulate.scene.laws import LAWS
 
 NEAR = 3.0  # times Omega_m: a speed above is taken to be in another unit
@@ -29,21 +30,22 @@ def check_scene(scene: Scene, rom: Rom) -> None:
         One line for each fault.
     """
     require_sweep(scene)
-    liner, clearance, directions = scene.liner, scene.clearance, scene.directions
+    liner, casing, directions = scene.liner, scene.casing, scene.directions
+    places = strip_places(rom, liner.m, casing)
     speeds = scene.speeds.omega(rom.f1)
     too_fast = [*_speeds(scene.speeds, rom, scene.blade)]
     allowed = speeds[speeds <= rom.Omega_m * (1 + ROUND_OFF)]  # others are a fault of their own
-    outgrown = growth_fault(clearance, rom, strip_places(rom, liner.m).xi, allowed)
-    has_gaps = not (clearance.at_rest and (too_fast or outgrown))
+    outgrown = growth_fault(scene.gaps, rom, places.xi, allowed)
+    has_gaps = not (scene.gaps.vary and (too_fast or outgrown))
     faults = [  # in the order of their lines
         *_model(scene.blade, scene.contact, [*scene.record.grids], directions, rom),
         *too_fast,
-        *_slope(scene.casing.slope, rom, strip_places(rom, liner.m, scene.casing.slope).slope),
+        *_slope(casing, rom, places.slope),
         *_liner(liner, rom.camber[:, 0]),
         *_strips(liner, rom),
-        *_gaps(clearance.gaps([0, 1], rom.span)),
+        *_gaps(scene.gaps, rom),
         *outgrown,
-        *(_edge(liner, scene.contact.profile, clearance, rom, speeds) if has_gaps else ()),
+        *(_edge(scene.gaps, liner, scene.contact.profile, rom, speeds) if has_gaps else ()),
     ]
     if faults:
         raise SceneError(*faults)
@@ -100,12 +102,12 @@ def _model(
         )
 
 
-def _slope(given: float | None, rom: Rom, slope: NDArray[np.float64]) -> Iterator[Fault]:
+def _slope(casing: Casing, rom: Rom, slope: NDArray[np.float64]) -> Iterator[Fault]:
     """A casing that tapers under the strips, by ``slope`` (m,), on a model without axial DoFs."""
     if not slope.any() or DIRECTIONS["z"] in rom.directions:
         return
     blade = rom.provenance.blade
-    if given is None:
+    if casing.slope is None and casing.line is None:
         yield Fault(
             f"the tip of blade {blade} tapers (dr/dz from {slope.min():.3g} to "
             f"{slope.max():.3g}), and the reduced model has no axial interface DoFs: give one that "
@@ -116,8 +118,8 @@ def _slope(given: float | None, rom: Rom, slope: NDArray[np.float64]) -> Iterato
         yield Fault(
             "the reduced model has no axial interface DoFs; take rom-rtz.nc: `./run snakemake "
             f"results/{blade}/rom-rtz.nc`, or slope: 0",
-            "casing.slope",
-            given,
+            f"casing.{'line' if casing.line else 'slope'}",
+            casing.slope,
         )
 
 
@@ -205,8 +207,24 @@ def _strips(liner: Liner, rom: Rom) -> Iterator[Fault]:
         )
 
 
-def _gaps(gaps: NDArray[np.float64]) -> Iterator[Fault]:
-    """Gaps (2,), m, at the edges below 0."""
+def _gaps(of: Gaps, rom: Rom) -> Iterator[Fault]:
+    """Gaps below 0 at the edges, and a line that ends above the tip or crosses it."""
+    if line := of.casing.line:
+        z, gaps = rom.camber[:, 2], given_gaps(of, rom, middles(len(rom.camber)))
+        if not (line.z_mm[0] <= 1e3 * z.min() and 1e3 * z.max() <= line.z_mm[-1]):
+            yield Fault(
+                f"z_mm from {line.z_mm[0]:g} to {line.z_mm[-1]:g}: should cover the tip, from "
+                f"{1e3 * z.min():.4g} to {1e3 * z.max():.4g}",
+                "casing.line",
+            )
+        elif gaps.min() < 0:
+            yield Fault(
+                f"is {-1e3 * gaps.min():.4g} mm inside the tip at rest: its radius is "
+                f"{1e3 * rom.camber[:, 0].min():.5g} to {1e3 * rom.camber[:, 0].max():.5g} mm",
+                "casing.line",
+            )
+        return
+    gaps = given_gaps(of, rom, [0, 1])
     if gaps.min() < 0:
         yield Fault(
             f"the gap, linear along the chord, is {gaps.min():.3g} m at the "
@@ -217,14 +235,10 @@ def _gaps(gaps: NDArray[np.float64]) -> Iterator[Fault]:
 
 
 def _edge(
-    liner: Liner,
-    profile: Profile | None,
-    clearance: Clearance,
-    rom: Rom,
-    speeds: NDArray[np.float64],
+    of: Gaps, liner: Liner, profile: Profile | None, rom: Rom, speeds: NDArray[np.float64]
 ) -> Iterator[Fault]:
     """Rods that are too wide for the slope of the tip at its rubbing edge."""
-    gap = least_gap(clearance, rom, liner.m, speeds)
+    gap = least_gap(of, rom, liner.m, speeds)
     fall = 2 * np.pi * rom.camber[:, 0].max() * edge_slope(profile, liner.footprint_m)
     least = fall / gap if gap > 0 else 0.0
     if liner.nu < least:

@@ -1,7 +1,7 @@
 """Run of one scene at one speed: all revolutions, with the recorded outputs and the status."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import nan
 from time import perf_counter
 from typing import Any
@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from geometry.tip import EDGES
 from simulate.contact.compiled import for_types_of
 from simulate.contact.ledger import CASING, DAMPING, FRICTION, HEAT, PLASTIC, RELEASED, WORK, Ledger
 from simulate.contact.places import SHARES, force_weights, volume_of
@@ -37,8 +38,9 @@ class Outcome:
     # which u_r was largest when the run ended
     theta: float  # rad, angle of that place in the casing at the end, in [0, 2 pi); nan where ok
     facts: Facts
-    u_r: NDArray[np.float64]  # (kept revolutions * samples, places), m, at xi = 1/16 and at the
-    # places of the history: all revolutions for a history or motion, else the last
+    # (kept revolutions * samples, places), m, of u_r - s u_z at ``edge`` and at the places of the
+    # history: all revolutions for a history or motion, else the last
+    u_r: NDArray[np.float64]
     states: NDArray[np.float64]  # (kept revolutions * samples, n), m: reduced displacements, last
     # revolutions
     ends: NDArray[np.float64]  # (m + 1,), chord fractions: ends of the strips
@@ -49,7 +51,7 @@ class Outcome:
     force_tangential_mean: NDArray[np.float64]  # (revolutions, shares), against the rotation
     casing_work: NDArray[np.float64]  # (revolutions computed,), J, of the casing on the rods
     contact_share: float  # steps with contact over all steps
-    each: Rounds  # numbers of every revolution
+    each: Rounds  # numbers of every revolution, of ``edge``
     # (times, 2 gauges): strain along gauges, 1, then stress, Pa, of the vibration, at every other
     # sample of the revolutions of the spectrum, else of the last; nan in those not computed
     gauges: NDArray[np.float64]
@@ -58,6 +60,10 @@ class Outcome:
     trend: str = TOO_SHORT  # whether the motion is steady
     final: FinalState | None = None  # start of the next run, where it is asked for
     reason: str = ""  # of a run without contact: why the tip did not touch
+    # xi of the edge whose motion is told: 1/16, or 15/16 where that moves more on a casing that
+    # tapers; half the range of u_t at both in the last revolution (2,), m, where it is known
+    edge: float = EDGES[0]
+    u_t: NDArray[np.float64] = field(default_factory=lambda: np.empty(0))
 
     @property
     def ledger(self) -> Ledger:
@@ -92,8 +98,9 @@ def _start(
         along = mu * setup.places.secant
         scheme = sliding(scheme, along, strip_stiffness(scene.liner, setup.places))
     state = at_start(scheme, strips)
-    kept = _room(scene.record, rounds, len(setup.Phi_out), state.motion.x.shape[1])
-    Phi_out, ramp = padded_rows(setup.Phi_out), ramp_of(scene.casing)
+    outputs, ramp = np.vstack([setup.Phi_out, setup.Phi_timing]), ramp_of(scene.casing)
+    kept = _room(scene.record, rounds, len(outputs), state.motion.x.shape[1])
+    Phi_out = padded_rows(outputs)
     share = force_weights(setup.places.ends)[: kept[1].shape[2]]
     over_radial = np.stack([setup.places.secant, np.ones_like(setup.places.secant)])
     weights = share * over_radial[:, None]
@@ -129,7 +136,8 @@ def march(scene: Scene, setup: Setup, start: FinalState | Worn | None = None) ->
         begin(state, start, scheme, SCHEMES[scene.stepping.scheme], setup, zeta)
     before = _stored(scene, setup, state, first * steps)
     contacts, done, end, worked = 0, 0, RUNNING, [0.0]
-    each, tau, words = Rounds.unknown(scene.rounds, _worn(setup, state)), nan, [TOO_SHORT]
+    worn, tau, words, moves = _worn(setup, state), nan, [TOO_SHORT], 0
+    at_edges = [Rounds.unknown(scene.rounds, worn) for _ in setup.edges]
     standing = max(scene.casing.changes_until - first, 0)  # first revolution that counts, from 0
     least = scene.record.rounds_of_spectrum
     judged = looks(standing, least, scene.rounds) if scene.until else {scene.rounds}
@@ -143,16 +151,19 @@ def march(scene: Scene, setup: Setup, start: FinalState | Worn | None = None) ->
         contacts += touched
         worked.append(float(state.energies[CASING]))
         if end == RUNNING:
-            samples = of_kernel[3].samples[:, 0]
-            each.add(done, samples, _worn(setup, state))
+            samples, worn = of_kernel[3].samples, _worn(setup, state)
+            for edge, each in enumerate(at_edges):
+                each.add(done, samples[:, edge], worn)
             if scene.record.gauges and (row := done - scene.rounds + least) >= 0:
                 modal = of_kernel[3].states[every - 1 :: every, : len(setup.Phi)]
                 gauges[row] = modal @ setup.Phi_gauges.T
         done += 1
         if done in judged or end != RUNNING:
             whole = end == RUNNING
-            tau = time_constant(samples, setup.omega, setup.Omega, zeta) if whole else nan
-            words.append(each.trend(standing, tau))
+            moves = int(np.argmax([each.most for each in at_edges]))
+            of_edge = samples[:, moves] if whole else None
+            tau = nan if of_edge is None else time_constant(of_edge, setup.omega, setup.Omega, zeta)
+            words.append(at_edges[moves].trend(standing, tau))
     marched = (done - 1) * steps + step
     taken = np.full((scene.rounds, 1), steps)
     taken[done - 1] = step
@@ -169,13 +180,15 @@ def march(scene: Scene, setup: Setup, start: FinalState | Worn | None = None) ->
     to_the_end, wanted = status in WITH_RESULT, scene.record.end or scene.speeds.in_turn
     place = (np.nan, np.nan) if to_the_end else _place(setup, state, end, node, step, total)
     u_r, forces, states = (_in_order(array[1:], done, scene.until) for array in kept)
+    shown = [moves, *range(len(setup.edges), len(setup.Phi_out))]
+    timing = samples[:, len(setup.Phi_out) :] if end == RUNNING else np.empty((1, 0))
     return Outcome(
         status=status,
         rounds=marched / steps,
         xi=place[0],
         theta=place[1],
         facts=facts,
-        u_r=u_r.reshape(-1, len(setup.Phi_out)),
+        u_r=u_r.reshape(-1, u_r.shape[2])[:, shown],
         states=states.reshape(-1, states.shape[2])[:, : len(setup.Phi)] @ setup.Phi.T,
         ends=setup.places.ends,
         wear=strips.thickness * state.eps_p,
@@ -184,7 +197,9 @@ def march(scene: Scene, setup: Setup, start: FinalState | Worn | None = None) ->
         force_tangential_mean=forces[:, 2] / taken,
         casing_work=np.diff(worked),
         contact_share=contacts / marched,
-        each=each,
+        each=at_edges[moves],
+        edge=setup.edges[moves],
+        u_t=np.ptp(timing, axis=0) / 2,
         gauges=np.concatenate(gauges),
         time_constant=tau,
         trend=words[-1],

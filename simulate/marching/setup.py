@@ -10,11 +10,12 @@ from numba.core import errors
 from numpy.typing import NDArray
 
 from geometry.project import UserError, known
+from geometry.tip import EDGES
 from rom.model import Rom
 from rom.polynomial import evaluate
-from simulate.contact.gaps import gaps_at, growth_fault
+from simulate.contact.gaps import gaps_at, given_gaps, growth_fault
 from simulate.contact.law_check import compile_fault
-from simulate.contact.places import Places, slope_of, strip_places
+from simulate.contact.places import Places, closing_rows, strip_places
 from simulate.contact.rod_law import RodLaw, rod_law
 from simulate.contact.strips import FLAT, Strips, Tip, largest_over_window, rods_in_footprint
 from simulate.contact.travelling import STANDING, waves
@@ -22,7 +23,7 @@ from simulate.marching.friction import Modes, steps_with_one_solution
 from simulate.marching.modal import padded, rows_of
 from simulate.marching.piecewise_exact import gain, share_of_end
 from simulate.marching.stability import step_limit
-from simulate.scene import LEADING, Casing, Clearance, Contact, Liner, Profile, Scene
+from simulate.scene import LEADING, Casing, Contact, Gaps, Liner, Profile, Scene
 from simulate.scene.integrator import Integrator
 from simulate.scene.law import Law
 from simulate.scene.laws import LAWS
@@ -49,17 +50,19 @@ class Setup:
     Phi: NDArray[np.float64]  # (n, n), their modes
     Phi_b: NDArray[np.float64]  # (m, n), their u_r - s u_z over the strips, P Phi
     Phi_t: NDArray[np.float64]  # (m, n), the tangential ones; (0, n) for radial contact
-    Phi_out: NDArray[np.float64]  # (places, n), u_r - s u_z at the outputs, xi = 1/16 first
+    Phi_out: NDArray[np.float64]  # (edges + places, n), u_r - s u_z at the outputs
+    edges: tuple[float, ...]  # xi of the first of them: 1/16; where the casing tapers 15/16 too
+    Phi_timing: NDArray[np.float64]  # (2, n), u_t at both edges there; else (0, n)
     Phi_gauges: NDArray[np.float64]  # (2 gauges, n): strain along gauges, 1, then stress, Pa
     places: Places
     strips: Strips
     bound: float  # m, displacement beyond which a run has diverged
 
 
-def least_gap(clearance: Clearance, rom: Rom, strips: int, speeds: Iterable[float]) -> float:
+def least_gap(of: Gaps, rom: Rom, strips: int, speeds: Iterable[float]) -> float:
     """Smallest gap at the places of so many strips, m, over the ``speeds``, rad/s."""
-    xi, speeds = strip_places(rom, strips).xi, speeds if clearance.at_rest else [0.0]
-    return float(min(gaps_at(clearance, rom, xi, Omega).min() for Omega in speeds))
+    xi, at = strip_places(rom, strips, of.casing).xi, speeds if of.vary else [0.0]
+    return float(min(gaps_at(of, rom, xi, Omega).min() for Omega in at))
 
 
 def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> Setup:
@@ -76,9 +79,8 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
     """
     integrator, contact, zeta = scene.stepping, scene.contact, scene.damping_ratio
     omega, Phi = _marched_modes(integrator.mass_scaling_hz, *rom.modes(Omega))
-    places = strip_places(rom, scene.liner.m, scene.casing.slope)
-    slope = slope_of(rom, scene.casing.slope)
-    Phi_b = rom.closing_rows(places.xi, slope) @ Phi
+    places = strip_places(rom, scene.liner.m, scene.casing)
+    Phi_b = closing_rows(rom, scene.casing, places.xi) @ Phi
     Phi_t = rom.rows(places.xi, "t") @ Phi if contact.along else Phi[:0]
     rows = rows_of(Phi_b, Phi_t if contact.tangential else Phi[:0])  # with friction as without
     limit = _limit(scene.liner, contact, zeta, omega, rows, places)
@@ -90,10 +92,13 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
             sliding_modes(omega, Phi_b, Phi_t, places), mu, zeta, h, steps, stiffness
         )
     compliance = _pushed(mu, Phi_b, Phi_t, places) @ gain(omega, zeta, h)
-    if faults := growth_fault(scene.clearance, rom, places.xi, np.array([Omega])):
+    if faults := growth_fault(scene.gaps, rom, places.xi, np.array([Omega])):
         raise SceneError(*faults)
     strips = strips_under(scene, rom, places, Omega, steps, compliance)
     _check_start(scene.casing, strips)
+    tapers = places.slope.any()
+    edges = EDGES if tapers else EDGES[:1]
+    outputs = np.array([*edges, *scene.record.chord])
     return Setup(
         Omega=Omega,
         h=h,
@@ -103,7 +108,9 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
         Phi=Phi,
         Phi_b=Phi_b,
         Phi_t=Phi_t,
-        Phi_out=rom.closing_rows(np.array([LEADING, *scene.record.chord]), slope) @ Phi,
+        Phi_out=closing_rows(rom, scene.casing, outputs) @ Phi,
+        edges=edges,
+        Phi_timing=rom.timing_rows @ Phi if tapers else Phi[:0],
         Phi_gauges=evaluate(rom.gauge_rows, Omega)[..., 1:].reshape(-1, rom.n) @ Phi
         if rom.gauges and scene.record.gauges  # companions have none
         else Phi[:0],
@@ -267,7 +274,7 @@ def strips_under(
                         in a step                             in a step
     """
     liner, casing, nu = scene.liner, scene.casing, scene.liner.nu
-    gap, theta = float(scene.clearance.gaps(LEADING, rom.span)), 2 * np.pi * np.arange(nu) / nu
+    gap, theta = float(given_gaps(scene.gaps, rom, LEADING)), 2 * np.pi * np.arange(nu) / nu
     d, h = casing.inward(theta, gap), 2 * np.pi / Omega / steps
     fixed = casing.fixed(theta, gap) if casing.travelling else d
     moving = [
@@ -291,7 +298,7 @@ def strips_under(
     backing = liner.thickness_m if liner.worn_through == "casing" else np.inf
     return Strips(
         law=_rod_law(liner),
-        g0=gaps_at(scene.clearance, rom, places.xi, Omega),
+        g0=gaps_at(scene.gaps, rom, places.xi, Omega),
         d=d,
         d_end=d.copy(),
         # a rigid casing is met at the end of a step

@@ -1,6 +1,7 @@
 """Whether a run is steady at its end: from its swing and its wear in each revolution.
 
-The swing is half the range of u_r at xi = 1/16 in a revolution. Its rest from the start dies out as
+The swing is half the range of u_r at xi = 1/16 in a revolution, on a casing that tapers of
+u_r - s u_z at the edge that moves more. Its rest from the start dies out as
 exp(-j/tau) over the revolutions j, with the time constant of the mode that responds, of frequency
 k Omega: tau = 1/(2 pi zeta k) revolutions, 53 for a damping of 0.1 % and EO 3. Beats between this
 mode and the engine orders rise and fall within tau; wear may change the motion at any time. So
@@ -43,7 +44,7 @@ LONGEST = 1e3  # time constants beyond so many times the revolutions are as with
 class Rounds:
     """Numbers of each revolution of a run; nan where it did not end."""
 
-    extremes: NDArray[np.float64]  # (revolutions, 2), m, least and largest u_r at xi = 1/16
+    extremes: NDArray[np.float64]  # (revolutions, 2), m, least and largest u_r at a place
     volume: NDArray[np.float64]  # (revolutions + 1,), m3, worn off the liner before and after each
 
     @classmethod
@@ -70,6 +71,11 @@ class Rounds:
     def swing(self) -> NDArray[np.float64]:
         """Half the range (revolutions,), m, of u_r."""
         return np.diff(self.extremes, axis=1)[:, 0] / 2
+
+    @property
+    def most(self) -> float:
+        """Largest swing, m; 0 if no revolution is whole."""
+        return float(np.nanmax(self.swing, initial=0.0))
 
     @property
     def largest(self) -> tuple[float, float]:

@@ -1,6 +1,6 @@
 """Input of a user: scenes, their tables and designs, the laws of the liner."""
 
-from simulate.scene.casing import LEADING, TRAILING, Casing, Clearance, Harmonic
+from simulate.scene.casing import LEADING, TRAILING, Casing, Clearance, Gaps, Harmonic
 from simulate.scene.contact import Contact, Profile
 from simulate.scene.integrator import CentralDifference, PiecewiseExact
 from simulate.scene.liner import STRIPS, Liner
@@ -36,6 +36,7 @@ __all__ = [
     "CentralDifference",
     "Clearance",
     "Contact",
+    "Gaps",
     "Harmonic",
     "History",
     "Liner",

@@ -1,5 +1,6 @@
 """Casing of a scene: the gap that it leaves, and its distortion over the angle and over time."""
 
+from dataclasses import dataclass
 from math import ceil, radians
 from typing import Annotated, ClassVar, Literal
 
@@ -8,9 +9,19 @@ from numpy.typing import ArrayLike, NDArray
 from pydantic import Field
 
 from geometry.project import Settings, SettingsError, checked, known
-from simulate.scene.tables import LARGEST_DEPTH, AnyTable, AnyThermal, RampTable
+from geometry.taper import counted, slope_of_line
+from geometry.tip import EDGES
+from simulate.scene.tables import (
+    LARGEST_DEPTH,
+    AnyLine,
+    AnyShift,
+    AnyTable,
+    AnyThermal,
+    RampTable,
+    Shift,
+)
 
-LEADING, TRAILING = 1 / 16, 15 / 16  # chord fractions at which gaps and outputs are given
+LEADING, TRAILING = EDGES
 IN_M = "in m: 0.1 mm is 1.0e-4"
 OVER_SPAN = "over the span: 0.02 % of it is 2.0e-4"
 
@@ -65,21 +76,34 @@ class Clearance(Settings):
 
     @checked
     def _growth_is_from_rest(self) -> None:
-        if self.thermal_growth is not None and not self.at_rest:
+        if self.thermal_growth is not None and self.at != "rest":
             raise SettingsError(
                 "only with `at: rest`: running gaps hold it already", key="thermal_growth"
             )
-
-    @property
-    def at_rest(self) -> bool:
-        """Whether the gaps are those at rest, from which the growth of the tip takes."""
-        return self.at == "rest"
 
     def gaps(self, xi: ArrayLike, span: float) -> NDArray[np.float64]:
         """Gaps as given, m, of the shape of the chord fractions ``xi``; ``span``: length, m."""
         first = _length(self.leading_edge_m, self.leading_edge_over_span, span)
         last = _length(self.trailing_edge_m, self.trailing_edge_over_span, span)
         return first + (last - first) * (np.asarray(xi) - LEADING) / (TRAILING - LEADING)
+
+
+@dataclass(frozen=True)
+class Gaps:
+    """What the gaps of a scene depend on: given with `clearance`, or by the casing's line."""
+
+    clearance: Clearance | None
+    casing: "Casing"
+
+    @property
+    def at_rest(self) -> bool:
+        """Whether they are given at rest: the growth of the tip takes from them."""
+        return self.clearance is None or self.clearance.at == "rest"
+
+    @property
+    def vary(self) -> bool:
+        """Whether they change with the speed."""
+        return self.at_rest or isinstance(self.casing.axial_shift_um, Shift)
 
 
 class Harmonic(Settings):
@@ -159,6 +183,16 @@ class Casing(Settings):
         description="Slope dr/dz of the casing, along which the tip slides; by default that of the "
         "tip; 0: contact along the radius. The gaps are those of `clearance`",
     )
+    line: AnyLine | None = Field(
+        default=None,
+        description="Shape of the casing instead of slope and `clearance`: the gap is the line "
+        "less the tip, which grows with speed",
+    )
+    axial_shift_um: AnyShift | None = Field(
+        default=None,
+        description="Shift of the rotor against the casing, downstream (um), a number or a table "
+        "over the speed: the gap changes by the slope times it",
+    )
     ramp_rounds: float | None = Field(
         default=None,
         ge=0,
@@ -168,6 +202,30 @@ class Casing(Settings):
     ramp: RampTable | None = Field(
         default=None, description="Instead of ramp_rounds: the distortion over the revolutions"
     )
+
+    @checked
+    def _one_slope(self) -> None:
+        if self.slope is not None and self.line is not None:
+            raise SettingsError(
+                "does not go with casing.line, which has a slope of its own", key="slope"
+            )
+
+    def slope_along(
+        self, line: NDArray[np.float64], of_tip: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
+        """Slope dr/dz (places,) over the places of the tip's camber ``line`` (places, 3).
+
+        ``of_tip`` (places,): that of the tip, which the casing has where none is given.
+        """
+        if self.line is not None:
+            z = line[:, 2]
+            return slope_of_line(self.line.radius(z), z)
+        return of_tip if self.slope is None else counted(np.full(len(of_tip), self.slope))
+
+    def shift(self, Omega: float, f1: float) -> float:
+        """Shift of the rotor, m, at ``Omega`` (rad/s); ``f1`` in Hz."""
+        shift = self.axial_shift_um or 0.0
+        return 1e-6 * (shift.at(Omega, f1) if isinstance(shift, Shift) else shift)
 
     @property
     def at_start(self) -> float:

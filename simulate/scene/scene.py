@@ -9,7 +9,7 @@ from pydantic import Field
 from geometry.blade import RPM
 from geometry.given import AnyBlade
 from geometry.project import Fault, Settings, SettingsError, SettingsFile, checked, known
-from simulate.scene.casing import MOST_ROUNDS, Casing, Clearance
+from simulate.scene.casing import MOST_ROUNDS, Casing, Clearance, Gaps
 from simulate.scene.contact import Contact
 from simulate.scene.integrator import Integrator
 from simulate.scene.liner import Liner
@@ -29,7 +29,10 @@ class Start(Settings):
     liner_only: bool = Field(default=False, description="Start at rest, over the worn liner")
 
 
-AT_REST = "`clearance: {at: rest}`: the gap would jump from one speed to the next under the tip"
+AT_REST = (
+    "gaps that change with the speed (`clearance: {at: rest}`, casing.line, a table of "
+    "casing.axial_shift_um): they would jump from one speed to the next under the tip"
+)
 TRAVELLING = (
     "casing.harmonics[].speed_rad_s: from speed to speed a harmonic that travels would jump"
 )
@@ -81,7 +84,10 @@ class Scene(SettingsFile):
         "fixed setting",
     )
     damping_ratio: float = Field(ge=0, lt=1, description="xi of every mode of K(Omega)")
-    clearance: Clearance = Field(description="Gaps in operation, before the casing distorts")
+    clearance: Clearance | None = Field(
+        default=None,
+        description="Gaps in operation, before the casing distorts; required without `casing.line`",
+    )
     casing: Casing = Field(description="Casing distortion")
     liner: Liner = Field(description="Abradable liner")
     contact: Contact = Field(default=Contact(), description="Tip profile and tangential force")
@@ -165,7 +171,13 @@ class Scene(SettingsFile):
 
         A model of a blade whose tip tapers has axial ones as well.
         """
-        return "rtz" if self.casing.slope else "rt" if self.contact.along else "r"
+        own = self.casing.slope or self.casing.line
+        return "rtz" if own else "rt" if self.contact.along else "r"
+
+    @property
+    def gaps(self) -> Gaps:
+        """What the gaps depend on."""
+        return Gaps(self.clearance, self.casing)
 
     @checked
     def _settings_or_accuracy(self) -> None:
@@ -244,6 +256,13 @@ class Scene(SettingsFile):
 
     @checked
     def _keys_go_together(self) -> None:
+        if (self.clearance is None) == (self.casing.line is None):
+            found = "none" if self.clearance is None else "both"
+            raise SettingsError(
+                f"give exactly one of clearance, casing.line; found {found} (`clearance: null` "
+                "takes out that of the base)",
+                key="clearance",
+            )
         start = self.start
         asked = {
             "start": start,
@@ -257,7 +276,7 @@ class Scene(SettingsFile):
             "halving": self.halving,
             "design": self.design,
             "peaks": self.peaks,
-            AT_REST: self.clearance.at_rest,
+            AT_REST: self.gaps.vary,
             TRAVELLING: self.casing.travelling,
         }
         for key, other in EXCLUDED:
@@ -265,7 +284,7 @@ class Scene(SettingsFile):
                 raise SettingsError(f"does not go with {other}: take one of them out", key=key)
 
     @checked
-    def _samples_are_steps(self) -> None:
+    def _record_fits_steps_and_rounds(self) -> None:
         samples = self.record.samples_per_round
         steps = self.integrator.steps_per_round if self.integrator else None
         if steps is not None and steps % samples:
@@ -275,9 +294,6 @@ class Scene(SettingsFile):
                 value=steps,
                 allowed={"multiple_of": samples},
             )
-
-    @checked
-    def _last_rounds_exist(self) -> None:
         for key in ("spectrum_rounds", "states_rounds"):
             if (asked := getattr(self.record, key) or 0) > self.rounds:
                 raise SettingsError(

@@ -1,6 +1,6 @@
-"""Tables of a scene: casing over the angle or the revolutions, thermal growth over the speed.
+"""Tables of a scene: casing over angle, revolutions or length, growth and shift over the speed.
 
-Those over angle and speed may be CSV files of a user with two columns of numbers, one over the
+All but those over revolutions may be CSV files of a user with two columns of numbers, one over the
 other, in units of their names, as the curve of a measured law may (``simulate.scene.laws.table``).
 """
 
@@ -11,7 +11,7 @@ from typing import Annotated, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import AfterValidator, BeforeValidator, Field
+from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
 
 from geometry.project import (
     Settings,
@@ -31,6 +31,9 @@ LENGTHS = {"m": 1.0, "mm": 1e-3, "um": 1e-6}
 GROWTHS: Columns = {f"growth_{unit}": ("growth_m", metres) for unit, metres in LENGTHS.items()}
 ANGLE: Columns = {"theta_deg": ("theta_deg", 1.0)}
 DEPTHS: Columns = {f"depth_{unit}": ("depth_m", metres) for unit, metres in LENGTHS.items()}
+SHIFTS: Columns = {f"shift_{unit}": ("shift_um", 1e6 * metres) for unit, metres in LENGTHS.items()}
+Z: Columns = {"z_mm": ("z_mm", 1.0)}
+RADII: Columns = {"r_mm": ("r_mm", 1.0)}
 POINTS = 8192  # angles around the casing at which a function is sampled
 LARGEST_DEPTH = 0.1  # m: a larger one is of another unit
 
@@ -67,15 +70,17 @@ def _columns(lines: list[tuple[int, list[str]]], x: Columns, y: Columns) -> dict
     return {key: [point[i] * si for point in points] for i, (key, si) in enumerate(columns)}
 
 
-def ascending(says: str, first: float = inf, last: float = inf) -> AfterValidator:
-    """Refuses numbers that do not ascend from 0 at least; ``says``: the rule in words.
+def ascending(
+    says: str, first: float = inf, last: float = inf, least: float = 0.0
+) -> AfterValidator:
+    """Refuses numbers that do not ascend from ``least``, 0; ``says``: the rule in words.
 
     ``first``: largest first one; ``last``: largest of all.
     """
 
     def check(values: Sequence[float]) -> Sequence[float]:
         """The values, if they ascend within the bounds."""
-        between = 0 <= min(values, default=0) <= first and max(values, default=0) <= last
+        between = least <= min(values, default=0) <= first and max(values, default=0) <= last
         if not (between and (np.diff(values) > 0).all()):
             raise SettingsError(f"should ascend{says}", value=values)
         return values
@@ -98,28 +103,18 @@ FROM_0 = ascending(", from 0 at least")
 AROUND = ", from 0 at least to 360 at most"
 
 
-class Thermal(Points):
-    """Growth of the tip against the casing over the speed, linear between its speeds.
-
-    The growth reduces the gap.
-
-    >>> table = Thermal(speed_over_f1=[0, 0.4], growth_m=[0, 2e-5])
-    >>> float(table.growth(0.5 * 0.4 * 2 * np.pi * 250.0, f1=250.0).round(9))
-    1e-05
-    """
+class OverSpeed(Points):
+    """Base of a length over the speed, linear between its speeds: the last of its keys."""
 
     either: ClassVar = [("speed_over_f1", "speed_rad_s")]
 
     speed_over_f1: Annotated[tuple[float, ...], FROM_0] | None = Field(
         default=None,
-        description="Speeds over f1(0), ascending; or `thermal_growth: FILE.csv`, with columns "
-        "speed_over_f1 or speed_rad_s, and growth_m, growth_mm or growth_um",
+        description="Speeds over f1(0), ascending; or FILE.csv in place of the table, with columns "
+        "speed_over_f1 or speed_rad_s, and the length in m, mm or um: growth_um, shift_um",
     )
     speed_rad_s: Annotated[tuple[float, ...], FROM_0] | None = Field(
         default=None, description="The same in rad/s, instead"
-    )
-    growth_m: tuple[float, ...] = Field(
-        min_length=2, description="Growth of the tip's radius less growth of the casing (m)"
     )
 
     def _speeds(self) -> tuple[float, ...]:
@@ -131,13 +126,62 @@ class Thermal(Points):
         speeds = self._speeds()
         return unit * speeds[0], unit * speeds[-1]
 
-    def growth(self, Omega: float, f1: float) -> float:
-        """Growth, m, at ``Omega`` (rad/s); ``f1`` in Hz."""
+    def at(self, Omega: float, f1: float) -> float:
+        """The length at ``Omega`` (rad/s), in the unit of its key; ``f1`` in Hz."""
         speed = Omega / (2 * np.pi * f1) if self.speed_over_f1 is not None else Omega
-        return np.interp(speed, self._speeds(), self.growth_m)
+        *_, (_, values) = self
+        return float(np.interp(speed, self._speeds(), values))
+
+
+class Thermal(OverSpeed):
+    """Growth of the tip against the casing over the speed. The growth reduces the gap.
+
+    >>> table = Thermal(speed_over_f1=[0, 0.4], growth_m=[0, 2e-5])
+    >>> round(table.at(0.5 * 0.4 * 2 * np.pi * 250.0, f1=250.0), 9)
+    1e-05
+    """
+
+    growth_m: tuple[float, ...] = Field(
+        min_length=2, description="Growth of the tip's radius less growth of the casing (m)"
+    )
+
+
+class Shift(OverSpeed):
+    """Axial displacement of the rotor against the casing over the speed."""
+
+    shift_um: tuple[float, ...] = Field(min_length=2, description="Shift downstream (um)")
+
+
+class Line(Points):
+    """Shape of the casing: its radius along the engine axis, linear between points.
+
+    >>> cone = Line(z_mm=[-20, 80], r_mm=[250, 230])
+    >>> cone.radius(np.array([0.0, 0.03])).round(6)
+    array([0.246, 0.24 ])
+    """
+
+    z_mm: Annotated[list[float], ascending("", least=-inf)] = Field(
+        min_length=2,
+        description="Along the engine axis, downstream, from the origin of the blade's file (mm); "
+        "or `line: FILE.csv`, with columns z_mm and r_mm",
+    )
+    r_mm: list[Annotated[float, Field(gt=0)]] = Field(
+        min_length=2, description="Radius of the liner there (mm)"
+    )
+
+    def radius(self, z: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Radius, m, at ``z``, m; beyond the ends that of the ends."""
+        return np.interp(1e3 * z, self.z_mm, self.r_mm) / 1e3
 
 
 AnyThermal = Annotated[Thermal, from_csv(Thermal, SPEEDS, GROWTHS)]
+AnyLine = Annotated[Line, from_csv(Line, Z, RADII)]
+# chosen by the kind of value, so that an error is reported for the form that was meant
+AnyShift = Annotated[
+    Annotated[float, Tag("number")]
+    | Annotated[Shift, from_csv(Shift, SPEEDS, SHIFTS), Tag("table")],
+    Discriminator(lambda value: "number" if isinstance(value, int | float) else "table"),
+]
 
 
 class RampTable(Points):

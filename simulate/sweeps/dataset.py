@@ -26,9 +26,11 @@ from geometry.project import (
     version,
 )
 from geometry.stored import read, write
+from geometry.tip import EDGES
 from rom.model import Rom
 from rom.polynomial import evaluate
-from simulate.contact.places import SHARES, slope_of
+from simulate.contact.gaps import given_gaps
+from simulate.contact.places import SHARES, closing_rows
 from simulate.errors.accuracy import Choice
 from simulate.errors.loads import torque_of_rounds
 from simulate.errors.neighbours import GAP_CHANGE
@@ -78,6 +80,8 @@ VARIABLES = {  # of each run: dimensions beside the speed, unit, meaning
     ),
     "displacement": ("", *NUMBERS["displacement"]),
     "largest_round": ("", "1", "number of the revolution of the displacement"),
+    "place": ("", "1", "chord fraction, 1/16 or 15/16, that moves more: of u_r and its numbers"),
+    "u_t": ("edge", "m", "half the range of u_t at 1/16 and 15/16 in the last revolution"),
     "extremes": ("round bound", "m", "range of u_r at xi = 1/16 in a revolution"),
     "worn": ("round", "m3", "volume worn off the liner in a revolution"),
     "seconds": ("", "s", "wall time of the run and of its second runs"),
@@ -136,6 +140,7 @@ COORDINATES = {  # dimensions, unit, meaning
     "chord": ("chord", "1", "chord fraction of the place"),
     "history_time": ("history_time", "1", "revolutions since the start"),
     "time": ("time", "1", "revolutions since the start"),
+    "edge": ("edge", "1", "chord fraction of the edge"),
     "P": ("strip dof", "1", "u_r - s u_z = P states, s the slope of the casing"),
     "round": ("round", "1", "number of the revolution"),
     "share": ("share", "1", "middle of the eighth of the chord"),
@@ -147,7 +152,7 @@ COORDINATES = {  # dimensions, unit, meaning
     "energy": ("energy", "", ENERGIES + "{of_friction}"),
     "observable": ("observable", "", ""),
 }
-GAP_AT_REST = (SPEED, "strip"), "m", "gap at rest less growth of the tip"  # another at each speed
+GAP_OF_SPEED = (SPEED, "strip"), "m", "gap at the speed"  # another at each
 ALWAYS = ("status", "f1", "step", "contact_share", "ledger", SPEED, "speed", "xi", "width", "gap")
 RECORDED = {  # by the key of the scene's record that asks for them
     "wear": ("wear",),
@@ -190,7 +195,7 @@ def attributes(scene: Scene, rom: Rom, choice: Choice | None) -> dict[str, str |
         "scene": scene.model_dump_json(),
         "rom": rom.provenance.dump(),
         "code": code_hash("simulate.sweeps.over_speeds"),  # of the computation
-        "gap_m": float(scene.clearance.gaps(LEADING, rom.span)),
+        "gap_m": float(given_gaps(scene.gaps, rom, LEADING)),
         "f1_Hz": rom.f1,
         "tip_radius_m": float(rom.line(np.array([LEADING]))[0, 0]),
         "blade": rom.provenance.blade,
@@ -269,8 +274,8 @@ def _require_runs(runs: xr.Dataset) -> None:
     """
     scene = json.loads(runs.attrs["scene"])
     dims, must = dict(DIMS), [SPEED, "status"]
-    if scene["clearance"].get("at") == "rest":
-        dims["gap"] = GAP_AT_REST[0]
+    if "gap" in runs and SPEED in runs["gap"].dims:
+        dims["gap"] = GAP_OF_SPEED[0]
     if "code" in runs.attrs:  # else made by hand, for its reader
         asked = (names for key, names in RECORDED.items() if scene["record"].get(key))
         must = [*ALWAYS, *chain(*asked)]
@@ -398,8 +403,8 @@ def _dataset(scene: Scene, values: dict[str, Any]) -> xr.Dataset:
         for name, (dims, units, meaning) in COORDINATES.items()
         if name in values
     }
-    if scene.clearance.at_rest:
-        coords["gap"] = entry(GAP_AT_REST[0], values["gap"][None], *GAP_AT_REST[1:])
+    if scene.gaps.vary:
+        coords["gap"] = entry(GAP_OF_SPEED[0], values["gap"][None], *GAP_OF_SPEED[1:])
     variables = {
         name: entry((SPEED, *dims.split()), np.array([values[name]]), units, meaning.format(**said))
         for name, (dims, units, meaning) in VARIABLES.items()
@@ -440,7 +445,8 @@ def course(run: xr.Dataset) -> Course:
     if np.isnan(run["time_constant"]):
         return {"trend": run["trend"].item()}
     worn = run["worn"].values[: int(run["rounds"])]
-    return {
+    place: Course = {"place": run["place"].item()} if "place" in run else {}
+    return place | {
         "trend": run["trend"].item(),
         "time_constant": run["time_constant"].item(),
         "largest_round": run["largest_round"].item(),
@@ -461,7 +467,8 @@ def _of_march(run: Run) -> dict[str, Any]:
     setup, outcome = run.setup, run.outcome
     speed, nu = np.array([setup.Omega]), len(setup.strips.d)
     largest, number = outcome.each.largest
-    return {
+    timed = {"u_t": outcome.u_t, "edge": [*EDGES]} if outcome.u_t.size else {}
+    return ({"place": outcome.edge, **timed} if len(setup.edges) > 1 else {}) | {
         SPEED: over_f1(speed, run.rom),
         "speed": speed,
         "xi": setup.places.xi,
@@ -554,7 +561,7 @@ def _of_states(run: Run) -> dict[str, Any]:
     rounds, samples = run.scene.record.rounds_of_states, run.scene.record.samples_per_round
     return {
         "states": run.outcome.states,
-        "P": run.rom.closing_rows(run.setup.places.xi, slope_of(run.rom, run.scene.casing.slope)),
+        "P": closing_rows(run.rom, run.scene.casing, run.setup.places.xi),
         "time": run.scene.rounds - rounds + np.arange(1, rounds * samples + 1) / samples,
     }
 

@@ -29,6 +29,7 @@ from geometry.project import (
 )
 from geometry.stored import read, write as save
 from rom.model import Rom
+from simulate.contact.gaps import given_gaps
 from simulate.errors.accuracy import Choice
 from simulate.errors.checked import checked
 from simulate.errors.observables import NUMBERS, last_spectrum, numbers
@@ -178,7 +179,7 @@ class Engine:
 
     def peaks_among(self, runs: NDArray, scene: Scene) -> Callable[[int], Peak | None]:
         """Function that finds the peak of a row along an engine order."""
-        speeds, gap = runs["speed_over_f1"], scene.clearance.gaps(LEADING, self.rom.span)
+        speeds, gap = runs["speed_over_f1"], given_gaps(scene.gaps, self.rom, LEADING)
 
         def along(k: int) -> NDArray[np.float64]:
             """Amplitude (speeds,) along engine order ``k``, gaps."""
@@ -357,7 +358,7 @@ def _of_row(engine: Engine, scene: Scene, runs: NDArray) -> dict[str, Any]:
         **{name: [getattr(peak, key, np.nan) for peak in peaks] for name, key in OF_PEAK.items()},
         "reported": [int(peak is not None and peak.reported) for peak in peaks],
         **{name: [run[name] for run in at_peaks] for name in NO_PEAK},
-        "gap": float(scene.clearance.gaps(LEADING, engine.rom.span)),
+        "gap": float(given_gaps(scene.gaps, engine.rom, LEADING)),
         "runs": len(runs),
         "not_ok": int((runs["status"] != STATUSES.index("ok")).sum()),
         "largest_amplitude": np.fmax.reduce(runs["amplitude"]),

@@ -57,6 +57,7 @@ class Peak:
     lobes: int | None = None  # worn there, of the leading eighth; None where no wear is recorded
     course: Course = field(default_factory=Course, hash=False)
     verdict: str = ""  # of second runs (``neighbour``); empty without them
+    beyond: str = ""  # ``BEYOND`` where linear kinematics does not hold
     numbers: Numbers = field(default_factory=dict, hash=False)  # in the units of ``NUMBERS``
     errors: Numbers = field(default_factory=dict, hash=False)  # of each number, in its unit
     other: Numbers = field(default_factory=dict, hash=False)  # of the second of two motions

@@ -17,7 +17,7 @@ model to model has two motions (``errors.bistable``).
 
 from collections.abc import Callable
 from dataclasses import replace
-from math import hypot, inf, isfinite
+from math import hypot, inf, isfinite, nan
 from time import perf_counter, process_time
 from typing import Any
 
@@ -27,6 +27,7 @@ import xarray as xr
 from geometry.project import Say, SettingsError, known, progress, silent
 from rom.coarser import coarser
 from rom.model import Rom, RomError
+from simulate.errors.beyond_linear import BEYOND, SHARE, SecondOrder
 from simulate.errors.bistable import LAST, change, jump, largest
 from simulate.errors.companion import FINER_TIMES, TIMES, Fineness, companion
 from simulate.errors.model_errors import ModelError
@@ -36,12 +37,12 @@ from simulate.errors.observables import Numbers, numbers
 from simulate.errors.run import Case, as_long
 from simulate.errors.signals import gaps_at_ends, leading_wear, lobe_count
 from simulate.marching import SENSITIVE_FROM, WITH_RESULT, prepare
-from simulate.scene import OF_LAST_ROUNDS, Scene
+from simulate.scene import LEADING, OF_LAST_ROUNDS, Scene
 from simulate.sweeps.before import before
 from simulate.sweeps.dataset import checks, course, scene_of, statuses
 from simulate.sweeps.peak import Peak, along_order, crossing, reported
 
-OF_MOTION = {name: name for name in ("amplitude", "displacement")}
+OF_MOTION = {name: name for name in ("amplitude", "displacement", "u_t_leading", "u_t_trailing")}
 OF_CONTACT = {  # numbers of a peak by their name in files, and that in ``NUMBERS``
     **{name: name for name in ("wear", "worn_volume", "opening", "force_peak", "torque")},
     "force": "force_mean",
@@ -58,8 +59,11 @@ def results(
     model_error: ModelError,
     start: xr.Dataset | None = None,
     report: Say = silent,
+    second_order: SecondOrder | None = None,
 ) -> list[Peak]:
     """The reported peaks of a sweep with their results; without any, where it responds most.
+
+    ``second_order``: of the blade, where it is known.
 
     ``start``: as of ``closing_in.sweep``. Runs in turn are not repeated: their numbers have no
     uncertainty.
@@ -72,6 +76,8 @@ def results(
         if peak.status in WITH_RESULT and not scene.speeds.in_turn:
             case = case_of(runs, scene, rom, peak)
             peak = _with_errors(peak, replace(case, start=start_at(case.setup.Omega)), model_error)
+            if second_order is not None:
+                peak = _with_second_order(peak, case, second_order, runs.attrs["gap_m"])
         peak = replace(peak, seconds=process_time() - begun)
         far = progress.remaining(done, len(peaks), perf_counter() - start_of_all)
         report(f"{line(peak)}: {peak.runs} runs, {peak.seconds:.2f} s; peak {far}")
@@ -107,14 +113,14 @@ def ends(runs: xr.Dataset) -> list[dict[str, Any]]:
 
     With the gaps there, m, of a scene that gives them at rest.
     """
-    at_rest = scene_of(runs).clearance.at_rest
+    vary = scene_of(runs).gaps.vary
     indices = np.flatnonzero(runs["status"].isin(WITH_RESULT))
     return [
         {
             "over_f1": float(runs["speed_over_f1"][index]),
             "status": str(runs["status"].values[index]),
             "lobes": _lobes(runs, index),
-            "gaps_m": gaps_at_ends(runs)[index].tolist() if at_rest else [],
+            "gaps_m": gaps_at_ends(runs)[index].tolist() if vary else [],
         }
         for index in dict.fromkeys([*indices[:1], *indices[-1:]])
     ]
@@ -227,6 +233,24 @@ def _with_errors(peak: Peak, case: Case, model_error: ModelError) -> Peak:
         other=max(sides, key=lambda side: largest(change(first, side))) if sides else {},
         parts=parts,
         runs=len(runs),
+    )
+
+
+def _with_second_order(peak: Peak, case: Case, known: SecondOrder, gap: float) -> Peak:
+    """The peak with the change of the tip's radius of second order over the ``gap``, m."""
+    motion, setup = peak.numbers.get("displacement", nan), case.setup
+    place = peak.course.get("place", LEADING)
+    of_peak = setup.Omega, peak.k, place, motion
+    second, axial = known.at_peak(case.rom, case.scene.casing, *of_peak)
+    if not isfinite(second):
+        return peak
+    half = setup.places.width.mean() / 2
+    error = 2 * second * peak.errors["displacement"] / motion / gap
+    return replace(
+        peak,
+        beyond=BEYOND if second > SHARE * motion or axial > half else "",
+        numbers=peak.numbers | {"second_order": second / gap},
+        errors=peak.errors | {"second_order": error},
     )
 
 

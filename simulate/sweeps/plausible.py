@@ -13,6 +13,7 @@ import xarray as xr
 
 from geometry.project import Caution
 from rom.model import Rom
+from simulate.contact.gaps import given_gaps
 from simulate.scene import LEADING, Casing, Liner, Profile, Scene
 
 SLOWEST = 0.005  # over f1(0): below, no engine order up to 200 meets f1
@@ -38,7 +39,7 @@ def warn_of(lines: Iterable[str]) -> None:
 
 def doubts(scene: Scene, rom: Rom) -> dict[str, str]:
     """A line for each doubtful value, by its key."""
-    gaps = scene.clearance.gaps([LEADING, 0, 1], rom.span)
+    gaps = given_gaps(scene.gaps, rom, [LEADING, 0, 1])
     goes_on = scene.start is not None or scene.record.end
     tried = chain(
         _of_motion(scene.speeds.omega(rom.f1).min() / rom.omega1, scene.damping_ratio),

@@ -8,15 +8,17 @@ from refused import refused
 
 from fem.assemble import assemble, over_speeds
 from geometry.blade import EnrichedBasis, PaperBasis
+from geometry.hats import hats
 from geometry.project import ProvenanceError
+from geometry.tip import EDGES
 from rom.check import RomCheck, check, further_speeds
-from rom.full_model import FullModel, solve
+from rom.full_model import BENT, FullModel, solve
 from rom.model import RomError
 from rom.reduce import reduce
 from rom.speeds import basis_speeds, check_speeds, node_polynomial
 
 EVEN = np.linspace(0, 650, 17)
-JOINED = "speeds", "omega", "residuals", "compliance"
+JOINED = "speeds", "omega", "residuals", "compliance", "tip"  # the second order is not known here
 
 
 @pytest.fixture(scope="module")
@@ -137,6 +139,27 @@ def test_results_at_further_speeds_are_joined(full):
     joined = parts[0].joined(parts[1])
     for name in JOINED:
         np.testing.assert_array_equal(getattr(joined, name), getattr(full, name))
+
+
+def test_second_order_is_along_a_static_field_without_the_mode_itself(check_matrices):
+    """K x = R but for the force of the mode, whose amplitude is given; u_t^2 / 2 r comes on top."""
+    fom, seen = check_matrices.at([0.0]), []
+
+    def along(u, x, w):
+        seen.append((x, w))
+        return 7.0
+
+    full = solve(fom, fom.states(), along=along)
+    (tip,), (second,) = full.tip, full.second_order
+    R = hats(EDGES, fom.xi) @ fom.rows("r")
+    for (edge, mode), (x, w) in zip(np.ndindex(2, BENT), seen, strict=True):
+        assert tip[0, edge, mode] == pytest.approx(R[edge] @ w)
+        assert abs(w @ (fom.M @ x)) < 1e-9 * np.sqrt(x @ (fom.M @ x))
+        left = R[edge] - fom.K[0] @ x - fom.M @ w * (R[edge] @ w)
+        assert np.linalg.norm(left) < 1e-6 * np.linalg.norm(R[edge])
+    radius = np.interp(EDGES, np.linspace(0, 1, len(fom.camber)), fom.camber[:, 0])
+    np.testing.assert_allclose(second, 7.0 + tip[1] ** 2 / 2 / radius[:, None])
+    assert np.isnan(solve(fom, fom.states()).second_order).all()  # of matrices from elsewhere
 
 
 def test_the_paper_basis_reports_its_error_and_is_accepted(paper_reduced, paper_full):

@@ -59,11 +59,16 @@ class Massless(NamedTuple):
     R_out: NDArray[np.float64]  # (places, m), m/N
 
 
-def macneal(setup: Setup, r: int) -> Massless:
-    """The ``r`` lowest free modes; the others are static."""
-    high = setup.Phi_b[:, r:] / setup.omega[r:] ** 2
-    R, R_out = high @ setup.Phi_b[:, r:].T, setup.Phi_out[:, r:] @ high.T
-    return Massless(setup.omega[:r], setup.Phi_b[:, :r], R, setup.Phi_out[:, :r], R_out)
+def macneal(setup: Setup, r: int, rows: NDArray[np.float64] | None = None) -> Massless:
+    """The ``r`` lowest free modes; the others are static.
+
+    ``rows`` (m + places, n): over the strips and at the outputs, instead of those of ``setup``.
+    """
+    m, own = len(setup.Phi_b), np.vstack([setup.Phi_b, setup.Phi_out])
+    every = own if rows is None else rows @ setup.Phi
+    low, high = every[:, :r], every[:, r:] / setup.omega[r:]
+    R = high @ high[:m].T
+    return Massless(setup.omega[:r], low[:m], R[:m], low[m:], R[m:])
 
 
 def craig_bampton(setup: Setup, rom: Rom, places: NDArray[np.float64], r: int) -> Massless:

@@ -29,6 +29,7 @@ class March(NamedTuple):
     u_r: np.ndarray  # (m,), m, over the strips at the end
     wear: np.ndarray  # (m, nu), m
     contacts: int  # steps with contact
+    out: np.ndarray | None = None  # (steps, k), m, displacements by rows in the last revolution
 
 
 class Liner:
@@ -189,10 +190,12 @@ def piecewise_exact(
     steps: int,
     count: int,
     P: np.ndarray | None = None,
+    P_out: np.ndarray | None = None,
 ) -> March:
     """Exact modes under a force held over each step: a mean over it, of weight w_end its end.
 
     ``P`` (m, n): what closes the gaps of the strips by the model's displacements; None: u_r.
+    ``P_out`` (k, n): rows of the displacements that are kept.
     """
     liner, h, xi = Liner(scene, rom, Omega, steps), 2 * np.pi / Omega / steps, scene.damping_ratio
     squares, Phi = eigh(rom.stiffness(Omega), rom.M)
@@ -205,7 +208,7 @@ def piecewise_exact(
     C = (rows * gain[0]) @ pushed.T
     stiff = liner.E * liner.A * liner.length / liner.l * np.maximum(np.diag(C), 0)
     w_end = stiff / (stiff + HALF_AT)
-    state, contacts = np.zeros((2, len(omega))), 0
+    state, contacts, kept = np.zeros((2, len(omega))), 0, []
     for n in range(1, count + 1):
         before, state = state[0], np.einsum("nij,jn->in", free, state)
         start, predicted = rows @ before, rows @ state[0]
@@ -217,7 +220,9 @@ def piecewise_exact(
             liner.wear_away(away, lift, start, u_r, moved, came)
             contacts += bool(force.max() > 0)
             state = state - gain * (pushed.T @ force)
-    return March(rows @ state[0], liner.l * liner.eps_p, contacts)
+        kept.append(state[0])
+    out = None if P_out is None else np.array(kept[-steps:]) @ (P_out @ Phi).T
+    return March(rows @ state[0], liner.l * liner.eps_p, contacts, out)
 
 
 def _implicit(

@@ -12,11 +12,13 @@ from scenes import blade_balance, of_steps, scene
 from test_loads import EXACT, rigid, rubbed  # noqa: F401
 
 from geometry.hats import hats, middles
+from rom.coarser import coarser
 from rom.reduce import reduce
 from simulate.marching import SceneError, check_scene
 
 SLOPE = -0.2
 SECANT = np.hypot(1, SLOPE)
+XI = middles(8)
 
 
 def closing(rom, xi, slope=SLOPE):
@@ -114,7 +116,14 @@ def test_a_tip_that_tapers_gets_axial_dofs_whatever_is_asked_for(coarse_blade, c
     full = reduce(fom, coarse_blade.basis, "rtz")[0]
     u_z = rom.compliance(0.0)[:, 1]
     np.testing.assert_allclose(u_z, full.compliance(0.0)[:, 2], rtol=1e-6)
-    assert reduce(coarse_matrices, coarse_blade.basis, "r")[0].directions == ("radial",)
+    for speed, u in zip(fom.speeds, fom.u_static, strict=True):  # what the shift of the tip is
+        of_tip = hats(XI, fom.xi) @ (fom.S[2::3] @ u)
+        for model in (rom, coarser(rom)[0]):
+            found = model.advance_at(XI, speed)
+            np.testing.assert_allclose(found, of_tip, atol=0.02 * abs(of_tip).max() + 1e-15)
+    assert abs(of_tip).max() > 1e-6
+    cylinder = reduce(coarse_matrices, coarse_blade.basis, "r")[0]
+    assert cylinder.directions == ("radial",) and not cylinder.advance_at(XI, speed).any()
 
 
 def test_a_model_without_axial_dofs_is_refused_for_a_casing_that_tapers(

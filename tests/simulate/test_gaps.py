@@ -36,7 +36,7 @@ def test_gap_is_that_at_rest_less_the_growth(grown):
     case, xi = at_rest(), np.array([LEADING, 0.5, TRAILING])
     given = case.clearance.gaps(xi, grown.span)
     for share in (0.0, 0.5, 1.0):
-        gaps = gaps_at(case.clearance, grown, xi, share * grown.Omega_m)
+        gaps = gaps_at(case.gaps, grown, xi, share * grown.Omega_m)
         expected = given - 5e-5 * share**2 * (1 - 0.2 * xi)
         np.testing.assert_allclose(gaps, expected, rtol=1e-12)
     setup = prepare(scene(), grown, 400.0)
@@ -73,7 +73,7 @@ def test_thermal_growth_takes_from_the_gap_too(grown, tmp_path):
     case = at_rest(clearance={**GAPS, "at": "rest", "thermal_growth": str(path)})
     path.unlink()
     taken = [
-        gaps_at(at_rest().clearance, grown, 0.5, Omega) - gaps_at(case.clearance, grown, 0.5, Omega)
+        gaps_at(at_rest().gaps, grown, 0.5, Omega) - gaps_at(case.gaps, grown, 0.5, Omega)
         for Omega in rad_s(grown, np.array([0.1, 0.2, 0.3]))
     ]
     assert taken == pytest.approx([5e-6, 1e-5, 2.5e-5], rel=1e-9)
@@ -93,7 +93,7 @@ def test_gap_that_the_tip_outgrows_is_refused_with_both_numbers_and_the_speed(gr
     assert str(refused(SceneError, check_scene, case, grown)) == (
         f"clearance: the gap at rest is 4e-06 m at xi = 0.0625, and the tip grows there by "
         f"{growth:.4g} m at {Omega:.6g} rad/s (0.35 f1(0)): contact before the casing distorts; "
-        f"allowed from that growth, or lower speeds"
+        f"allowed from that, or lower speeds"
     )
     fits = at_rest(clearance=SMALL | {"leading_edge_m": 1.01 * growth})
     check_scene(fits.but(speeds={"over_f1": [0.2, 0.35]}), grown)
@@ -114,10 +114,9 @@ def test_speed_outside_the_thermal_table_and_model_without_growth_are_refused(gr
 
 def test_least_gap_is_that_of_the_worst_speed(grown):
     case = at_rest(speeds={"over_f1": [0.1, 0.35, 0.2]})
-    worst = gaps_at(case.clearance, grown, 0.0625, rad_s(grown, 0.35))
-    assert least_gap(
-        case.clearance, grown, case.liner.m, case.speeds.omega(grown.f1)
-    ) == pytest.approx(float(worst), rel=1e-12)
+    worst = gaps_at(case.gaps, grown, 0.0625, rad_s(grown, 0.35))
+    least = least_gap(case.gaps, grown, case.liner.m, case.speeds.omega(grown.f1))
+    assert least == pytest.approx(float(worst), rel=1e-12)
 
 
 @pytest.mark.parametrize(

@@ -8,6 +8,7 @@ from tempfile import TemporaryDirectory
 from typing import Any, NamedTuple
 
 import numpy as np
+from closing import Facets, tip_facets
 from massless import (
     Run,
     craig_bampton,
@@ -55,8 +56,8 @@ class Rub(NamedTuple):
 
 
 @cache
-def assembled(name: str, size: float) -> tuple[Blade, Matrices]:
-    """A blade on elements of ``size``, mm, and its matrices."""
+def assembled(name: str, size: float) -> tuple[Blade, Matrices, Facets]:
+    """A blade on elements of ``size``, mm, its matrices, and the facets of its tip."""
     from fem.assemble import assemble
     from geometry.mesh import build_mesh
     from rom.speeds import basis_speeds
@@ -67,20 +68,25 @@ def assembled(name: str, size: float) -> tuple[Blade, Matrices]:
         mesh = Path(folder) / "blade.msh"
         build_mesh(blade, mesh, BLADES / blade.file if blade.file else None)
         speeds = basis_speeds(blade.basis, blade.max_speed_rad_s)
-        return blade, assemble(blade, name, mesh, speeds)
+        return blade, assemble(blade, name, mesh, speeds), tip_facets(mesh)
 
 
 @cache
-def model(name: str, size: float, natural_modes: int) -> Rom:
-    """Its reduced model with radial interface DoFs, of so many modes at each speed.
+def reduced(name: str, size: float, natural_modes: int) -> tuple[Rom, NDArray[np.float64]]:
+    """Its reduced model with radial interface DoFs, of so many modes at each speed, and its basis.
 
     Modes of a reduced model beyond the natural ones of its basis are no modes of the blade.
     """
     from rom.reduce import reduce
 
-    blade, matrices = assembled(name, size)
+    blade, matrices, _ = assembled(name, size)
     basis = blade.basis.model_copy(update={"natural_modes": natural_modes})
-    return reduce(matrices, basis, "r")[0]
+    return reduce(matrices, basis, "r")
+
+
+def model(name: str, size: float, natural_modes: int) -> Rom:
+    """The model of ``reduced`` alone."""
+    return reduced(name, size, natural_modes)[0]
 
 
 def rub(rom: Rom, law: Mapping[str, Any], over_f1: float, **more: Any) -> Rub:
@@ -111,14 +117,24 @@ def exact_with_static(modes: int, of: Rub, steps: int) -> Run:
     return own_run(of.scene, setup, exact_but_static(setup, of.scene.damping_ratio, modes))
 
 
-def massless(modes: int, of: Rub, steps: int, *, fixed: bool = False) -> Run | None:
-    """By the massless boundary with so many dynamic ``modes``: MacNeal's, or of fixed interface."""
-    setup = of.at(steps)
-    reduced = (
-        craig_bampton(setup, of.rom, np.array([LEADING]), modes) if fixed else macneal(setup, modes)
+def massless(
+    modes: int,
+    of: Rub,
+    steps: int,
+    rows: NDArray[np.float64] | None = None,
+    *,
+    fixed: bool = False,
+) -> Run | None:
+    """By the massless boundary with so many dynamic ``modes``: MacNeal's, or of fixed interface.
+
+    ``rows``: as of ``macneal``.
+    """
+    setup, leading = of.at(steps), np.array([LEADING])
+    boundary = (
+        craig_bampton(setup, of.rom, leading, modes) if fixed else macneal(setup, modes, rows)
     )
-    stable = step_limit(reduced, strip_stiffness(of.scene.liner, setup.places))
-    return massless_run(of.scene, setup, reduced) if setup.h < stable else None
+    stable = step_limit(boundary, strip_stiffness(of.scene.liner, setup.places))
+    return massless_run(of.scene, setup, boundary) if setup.h < stable else None
 
 
 def central(of: Rub, fraction: float) -> Run | None:

@@ -1,22 +1,17 @@
 """NASA rotor 67 rubs where engine order 2 crosses f1: the scene `rotor67` on a coarse mesh."""
 
 from collections.abc import Iterator
-from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import numpy as np
 import peer
-from blades import facets_of
 from by_calculix import cells_of, theirs
 from cases import Case, Row
-from meshio import read
+from closing import closing, tip_facets
 from numpy.typing import NDArray
 from rotor67 import coarse, mesh_at_rest
-from scipy.spatial import KDTree
 
-from fem.matrices import Matrices
 from geometry.blade import RPM
-from geometry.interface import tip_of
 from geometry.project import ROOT
 from rom.model import Rom
 from rom.reduce import reduce
@@ -26,10 +21,15 @@ from workflow.jobs.full_model import assembled
 
 SCENE = ROOT / "workflow/scenes/rotor67.yaml"
 BESIDE = 1730.0, 1800.0  # rad/s, below and above the crossing
-PEAK = 17600.0  # rpm, on the way to the peak
+BELOW = 17000.0  # rpm, where the tip's second order is 5 % of its motion, that 2 gaps
+EDGES = 1 / 16, 15 / 16
 BY_A_SPEED = 0.1  # a test allows a tenth of it: the next speed of the sweep is 0.07 % away
 BY_ROWS = 5e-3  # S_r - s S_z is not quite the projection of u_r - s u_z
-PARTS = 12  # along each side of a facet, in whose parts' middles it is integrated
+NAMES = (
+    *("motion at xi = 1/16", "motion at xi = 15/16"),
+    *("deepest wear", "mean worn depth"),
+)
+MIDDLES = (np.arange(16) + 0.5) / 16  # of the strips
 
 
 def rows() -> Iterator[Row]:
@@ -54,51 +54,9 @@ def models() -> tuple[Rom, NDArray[np.float64], list[float]]:
         mesh = mesh_at_rest(blade, folder)
         fom = assembled(blade, "rotor67", mesh)
         rom, T = reduce(fom, blade.basis, "r")
-        P = closing(mesh, fom, T, rom)
+        P = closing(tip_facets(mesh), fom, T, np.array([*MIDDLES, *EDGES]))
         found = theirs("rotor67 at its crossing", cells_of(mesh), blade.material, BESIDE)
     return rom, P, [f1 for f1, *_ in found]
-
-
-def closing(mesh: Path, fom: Matrices, T: NDArray[np.float64], rom: Rom) -> NDArray[np.float64]:
-    """P (strips, n): what closes the gap to the cone over each strip, from places of nodes.
-
-    u_r - (dr/dz) u_z is projected on the hats as it is on the facets, by sums over small parts of
-    these; dr/dz is that of the camber line at the same z.
-    """
-    points, facets = read(mesh).points, facets_of(read(mesh), "tip")
-    i, j = np.indices((PARTS, PARTS))
-    up, down = i + j < PARTS, i + j < PARTS - 1
-    x, y = (np.concatenate([(k[up] + 1 / 3) / PARTS, (k[down] + 2 / 3) / PARTS]) for k in (i, j))
-    v, e = shape(x, y), 1e-3
-    nodes = points[facets]
-    along = [(shape(*plus) - shape(*minus)) / (2 * e) for plus, minus in (
-        ((x + e, y), (x - e, y)), ((x, y + e), (x, y - e)),
-    )]  # fmt: skip
-    places = (v @ nodes).reshape(-1, 3)
-    areas = np.linalg.norm(np.cross(*(of @ nodes for of in along)), axis=2).ravel()
-    r, z = np.hypot(places[:, 0], places[:, 1]), places[:, 2]
-    line = rom.camber
-    slope = np.interp(z, line[:, 2], np.gradient(line[:, 0], line[:, 2]))
-    normal = np.column_stack([places[:, 0] / r, places[:, 1] / r, -slope])
-    phi = tents(tip_of(facets, points).xi(places), len(rom.xi))
-    weighted = areas[:, None] * phi
-    _, at = KDTree(fom.coordinates).query(points[facets])
-    u = T.reshape(-1, 3, T.shape[1])[at]  # facets, nodes, xyz, DoFs
-    moved = np.einsum("qn,fncd->fqcd", v, u).reshape(len(places), 3, -1)
-    B = weighted.T @ np.einsum("pc,pcd->pd", normal, moved)
-    return tents((np.arange(16) + 0.5) / 16, len(rom.xi)) @ np.linalg.solve(phi.T @ weighted, B)
-
-
-def shape(x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Shape functions (places, 6) of a quadratic triangle: corners, middles of 01, 12, 20."""
-    a, b, c = 1 - x - y, x, y
-    corners = [one * (2 * one - 1) for one in (a, b, c)]
-    return np.column_stack([*corners, 4 * a * b, 4 * b * c, 4 * c * a])
-
-
-def tents(xi: NDArray[np.float64], n: int) -> NDArray[np.float64]:
-    """Hat functions (places, n) of equally spaced nodes from 0 to 1."""
-    return np.maximum(0, 1 - abs((n - 1) * np.clip(xi, 0, 1)[:, None] - np.arange(n)))
 
 
 def meeting(f1: list[float]) -> float:
@@ -109,16 +67,27 @@ def meeting(f1: list[float]) -> float:
 
 
 def near_the_peak(rom: Rom, P: NDArray[np.float64], scene: Scene) -> Iterator[Row]:
-    """Wear of a run by the independent program and ours; and by contact along the radius."""
-    alone, Omega = scene.but(peaks=None), PEAK / RPM
-    steps = scene.integrator.steps_per_round
-    their = peer.piecewise_exact(rom, alone, Omega, steps, steps * scene.rounds, P).wear
-    our = march(alone, rom, Omega).wear
-    along = march(alone.but(casing__slope=0.0), rom, Omega).wear
-    for name, of in (("deepest wear", np.max), ("mean worn depth", np.mean)):
-        at = f"{name} at {PEAK:g} rpm, um"
-        yield Row(at, 1e6 * float(of(their)), 1e6 * float(of(our)), BY_ROWS)
-        yield Row(f"{at}, by contact along the radius", None, 1e6 * float(of(along)), BY_A_SPEED)
+    """Motion and wear by the independent program and ours; and by contact along the radius.
+
+    ``P`` (strips + edges, n): as of ``closing``.
+    """
+    kept = {"history": {"chord": [*EDGES]}}
+    alone, Omega = scene.but(peaks=None, record=kept), BELOW / RPM
+    steps, m = scene.integrator.steps_per_round, len(MIDDLES)
+    of = rom, alone, Omega, steps, steps * scene.rounds
+    their = peer.piecewise_exact(*of, P[:m], P[m:])
+    ours, along = (march(case, rom, Omega) for case in (alone, alone.but(casing__slope=0.0)))
+
+    def numbers(edges: NDArray[np.float64], wear: NDArray[np.float64]) -> Iterator[float]:
+        """Half the range at both edges in the last revolution, deepest and mean wear, um."""
+        yield from 1e6 * np.ptp(edges[-steps:], axis=0) / 2
+        yield from (1e6 * float(wear.max()), 1e6 * float(wear.mean()))
+
+    found = (numbers(run.u_r[:, 1:], run.wear) for run in (ours, along))
+    for name, one, other, radial in zip(NAMES, numbers(their.out, their.wear), *found, strict=True):
+        at = f"{name} at {BELOW:g} rpm, um"
+        yield Row(at, one, other, BY_ROWS)
+        yield Row(f"{at}, by contact along the radius", None, radial, BY_A_SPEED)
 
 
 CASE = Case(

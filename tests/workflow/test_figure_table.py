@@ -19,7 +19,7 @@ def scene(blade="thin", design=None, gaps="running", count=9, touches=True, **re
         blade=blade,
         directions="r",
         design=design,
-        clearance=Made(at=gaps),
+        gaps=Made(vary=gaps == "rest"),
         until=None,
         speeds=Made(count=count),
         liner=Made(law=Made(touches=touches)),
@@ -134,7 +134,7 @@ def test_a_plain_run_delivers_what_its_scenes_have(configured, delivered):
     ("name", "wildcards", "file", "key"),
     [
         ("stress-{scene}", {"scene": "free"}, "workflow/blades/given.yaml", ""),
-        ("gap-{scene}", {"scene": "soft"}, "workflow/scenes/soft.yaml", "clearance.at"),
+        ("gap-{scene}", {"scene": "soft"}, "workflow/scenes/soft.yaml", "gaps"),
         ("sensitivity-{scene}", {"scene": "soft"}, "workflow/scenes/soft.yaml", "design"),
         ("modes-{blade}", {"blade": "given"}, "workflow/blades/given.yaml", ""),
         ("loads-{blade}", {"blade": "given"}, "", ""),

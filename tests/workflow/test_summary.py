@@ -7,6 +7,8 @@ from types import SimpleNamespace
 import pytest
 
 from geometry.project import write_json
+from geometry.tip import EDGES
+from simulate.errors.beyond_linear import BEYOND
 from simulate.errors.neighbour import ONE_MOTION, TWO_MOTIONS
 from simulate.scene import DYING_OUT, GROWING, TRENDS
 from workflow import summary
@@ -251,3 +253,25 @@ def test_the_panel_of_a_page_has_the_rows_of_the_summary(summed):
     tables = [(of["heads"], of["rows"]) for of in panel["tables"]]
     assert (tables[:-1], panel["speeds"]) == (shown, [0.35])  # the last is that of the margins
     assert panel["tables"][-1]["rows"] == []
+
+
+def test_a_casing_that_tapers_has_place_u_t_and_second_order(summed):
+    """Without them the tables have no such columns."""
+    of_tip = {"u_t_leading": 6e-3, "u_t_trailing": 4.5e-3, "second_order": 2.1}
+    numbers = NUMBERS | of_tip
+    errors = {name: 0.05 * value for name, value in numbers.items()}
+    course = ANSWER["course"] | {"place": EDGES[1]}
+    given = {"numbers": numbers, "errors": errors, "course": course, "beyond": BEYOND}
+    found = summed(given)
+    assert {"40 ±5% at ξ = 15/16", "6000 ±5%", "4500 ±5%", "2.1 ±5%"} <= {*cells(found)}
+    assert f"{ONE_MOTION}, {BEYOND}" in cells(found)
+    row = read_csv(found)
+    assert (row["place (xi)"], row["u_t_leading (um)"], row["second_order (1)"]) == (
+        "0.9375",
+        "6000",
+        "2.1",
+    )
+    plain = summed()
+    assert "40 ±5%" in cells(plain) and read_csv(plain)["place (xi)"] == ""
+    (motion, _), _ = summary.shown(plain["scenes"][0])
+    assert not [head for head in motion if "u_t" in head or "second" in head]

@@ -248,7 +248,7 @@ function drawWear(codes) {
   return Promise.all([profile, polar]);
 }
 
-const HISTORY = "Range of u_r at ξ = 1/16, whole run";
+const HISTORY = `Range of u_r at ${facts.place}, whole run`;
 
 function drawHistory(codes) {
   if (!has("history"))
@@ -264,7 +264,7 @@ function drawHistory(codes) {
   });
 }
 
-const SIGNAL = "Signal u_r at ξ = 1/16, last revolution";
+const SIGNAL = `Signal u_r at ${facts.place}, last revolution`;
 
 function drawSignal(codes) {
   if (!has("signal"))

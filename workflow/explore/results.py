@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from simulate.contact.places import slope_of
+from geometry.tip import EDGES
+from simulate.contact.places import closing_rows
 from simulate.errors.signals import leading_gap, lobe_count
-from simulate.scene import LEADING
 from simulate.sweeps import peak
 from simulate.sweeps.peak import along_order, crossing
 from workflow.figures.marks import frequencies_over_speed
@@ -34,7 +34,7 @@ def arrays(response: Response) -> Arrays:
     along (speeds, orders); spectrum (speeds, bins); worn (speeds, angles) of the leading eighth;
     liner (speeds, strips, coarse angles); history (speeds, windows, 2), its range; inward (angles),
     the casing's distortion, of harmonics that travel at the start; signal (speeds, times), u_r at
-    xi = 1/16 in the last revolution. Only data that the sweep holds.
+    the place of the motion in the last revolution. Only data that the sweep holds.
     """
     sweep, gap = response.sweep, leading_gap(response.sweep)
     theta = np.arange(ANGLES) * 2 * np.pi / ANGLES
@@ -48,9 +48,10 @@ def arrays(response: Response) -> Arrays:
     if "envelope" in sweep:
         by_name["history"] = sweep["envelope"].values / gap
     if "motion" in sweep:
-        slope = slope_of(response.rom, response.scene.casing.slope)
-        row = response.rom.closing_rows(np.array([LEADING]), slope)[0]
-        by_name["signal"] = sweep["motion"].values @ row / gap
+        rows = closing_rows(response.rom, response.scene.casing, np.array(EDGES))
+        moves = sweep["place"].values == EDGES[1] if "place" in sweep else False
+        of_both = sweep["motion"].values @ rows.T / gap
+        by_name["signal"] = np.where(np.reshape(moves, (-1, 1)), of_both[..., 1], of_both[..., 0])
     return by_name
 
 
@@ -79,6 +80,7 @@ def facts(response: Response, blade: str, scene: str) -> dict[str, Any]:
         "blade": blade,
         "scene": scene,
         "label": response.label.replace("$", "").replace("\\sigma_Y", "σ_Y").replace("\n", " "),
+        "place": response.place.replace("$\\xi$", "ξ"),
         "norms": response.units["speed"][0].scale == 1.0,
         "campbell": {"speeds": speeds.tolist(), "frequencies": frequencies.T.tolist()},
         "crossings": [(k, speed) for k in ORDERS if isfinite(speed := crossing(rom, k))],

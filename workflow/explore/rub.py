@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from geometry.project import UserError, whole
 from rom.model import Rom
-from simulate.contact.gaps import gaps_at
+from simulate.contact.gaps import gaps_at, given_gaps
 from simulate.contact.places import share_weights
 from simulate.contact.ramp import ramp_of
 from simulate.errors.accuracy import Choice
@@ -102,8 +102,8 @@ def by_rounds(
 def _rub(
     scene: Scene, rom: Rom, setup: Setup, outcomes: list[Outcome], first: FinalState | Worn | None
 ) -> Rub:
-    given, nu = float(scene.clearance.gaps(LEADING, rom.span)), setup.strips.d.size
-    gap = float(gaps_at(scene.clearance, rom, LEADING, setup.Omega))
+    given, nu = float(given_gaps(scene.gaps, rom, LEADING)), setup.strips.d.size
+    gap = float(gaps_at(scene.gaps, rom, LEADING, setup.Omega))
     leading = share_weights(setup.places.ends)[0]
     rods = setup.strips.thickness * first.eps_p if first else 0 * outcomes[0].wear
     u_r = np.array([outcome.u_r[:, 1] for outcome in outcomes])

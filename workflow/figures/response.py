@@ -16,7 +16,7 @@ from simulate.marching import SENSITIVE_FROM, WITH_RESULT
 from simulate.scene import LEADING, Scene
 from simulate.sweeps.dataset import load, scene_of
 from simulate.sweeps.peak import Peak, peaks_of
-from workflow.figures import units
+from workflow.figures import style, units
 from workflow.markdown import rounded
 
 SYMBOLS = {"sigma_Y": r"\sigma_Y"}  # of parameters whose symbol differs from their name
@@ -70,6 +70,11 @@ class Response:
         """Displacement (speeds, revolutions * samples) at xi = 1/16 over gap, from the start."""
         place = self.scene.record.chord.index(LEADING)
         return self.sweep["history"].values[:, place] / leading_gap(self.sweep)
+
+    @property
+    def place(self) -> str:
+        """Chord fraction of the displacements, of either edge on a casing that tapers."""
+        return rf"{style.PLACE}{' or 15/16' if 'place' in self.sweep else ''}"
 
     @property
     def spectrum(self) -> NDArray[np.float64]:

@@ -47,7 +47,6 @@ CURVES = {  # engine orders drawn as amplitudes
 OTHERS = {"color": style.GREY, "linewidth": 0.8}  # engine orders with a peak, beside CURVES
 NEAR = 0.07  # of the critical speed, to both sides: where these are drawn
 SHADE = 0.25  # opacity of the paper's critical speeds
-LABEL = f"amplitude of $u_r$ at {style.PLACE}"
 MODES = 7  # natural frequencies marked in them
 WINDOW = 2  # revolutions, of a spectrum
 SLICES = 16  # spectra per revolution
@@ -63,21 +62,21 @@ def over_speeds(
     sweep: Response,
     printed: str | None = None,
     operating: Mapping[str, Any] = NO_LINES,
-    label: str = LABEL,
+    label: str = "",
     highest: float = SHOWN,
 ) -> Figure:
     """Map of amplitude over frequency and speed; below, amplitude along the engine orders.
 
     ``printed``: part of the paper whose critical speeds are marked, as of ``CRITICAL``;
-    ``operating``: as of ``simulate.sweeps.peak.critical``; ``label``: of the amplitude;
-    ``highest``: frequency over f1(0) in the map.
+    ``operating``: as of ``simulate.sweeps.peak.critical``; ``label``: of the amplitude, if it is
+    not that of u_r; ``highest``: frequency over f1(0) in the map.
     """
     drawn, (top, bottom) = style.subplots(
         style.DOUBLE, 5.5, 2, letters=True, sharex=True, height_ratios=(1.8, 1)
     )
     largest = sweep.units["length"][0].scale * np.nanmax(sweep.spectrum[:, 1:], initial=0)
     limits = style.decades(largest, DECADES)
-    _map(top, sweep, limits, label, highest)
+    _map(top, sweep, limits, label or f"amplitude of $u_r$ at {sweep.place}", highest)
     _overlay(top, sweep)
     _amplitudes(bottom, sweep, printed)
     bottom.set_ylim(limits)

@@ -4,6 +4,7 @@ from typing import Any
 
 from geometry.project import Say
 from rom.model import Rom
+from simulate.errors.beyond_linear import SecondOrder
 from simulate.errors.model_errors import ModelErrors
 from simulate.sweeps.dataset import Sweep, require_rom
 from simulate.sweeps.peak_results import of_sweep, results
@@ -15,4 +16,6 @@ def find(
     """Peak results of a sweep; ``check`` and ``mesh_error`` are empty where the scene has none."""
     require_rom(sweep, rom)
     model_errors = ModelErrors.of(check, mesh_error, rom).frequencies
-    return of_sweep(sweep, rom, model_errors, results(sweep, rom, model_errors, start, tell))
+    second_order = SecondOrder.of(check) if check else None
+    peaks = results(sweep, rom, model_errors, start, tell, second_order)
+    return of_sweep(sweep, rom, model_errors, peaks)

@@ -5,6 +5,8 @@ from pathlib import Path
 from fem.assemble import over_speeds
 from fem.cholesky import Cholesky
 from fem.matrices import Matrices
+from fem.second_order import SecondOrder
+from fem.solid import read_solid
 from geometry.blade import Blade
 from geometry.project import Say, counted, silent
 from rom.between import resolved
@@ -40,5 +42,7 @@ def solve(blade: str, mesh: str, speeds: list[float], full: str, tell: Say) -> N
 def solved_at(speeds: list[float], blade: str, mesh: str, say: Say = silent) -> FullModel:
     """The full model of the blade in a file at ``speeds``, rad/s."""
     settings, cholesky = Blade.load(blade), Cholesky()
-    fom, states = over_speeds(settings, Path(blade).stem, mesh, speeds, cholesky)
-    return solve_at(fom, counted(states, len(speeds), "speed", say), cholesky)
+    solid = read_solid(str(mesh), settings.material)
+    fom, states = over_speeds(settings, Path(blade).stem, mesh, speeds, cholesky, solid)
+    along = SecondOrder(solid, settings.prestress).along
+    return solve_at(fom, counted(states, len(speeds), "speed", say), cholesky, along)

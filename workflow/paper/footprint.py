@@ -9,6 +9,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from rom.model import Rom
+from simulate.contact.gaps import given_gaps
 from simulate.contact.strips import Strips, covered_middle, covered_part, offset, profile_at
 from simulate.errors.signals import leading_gap
 from simulate.marching import prepare
@@ -88,7 +89,7 @@ def into_fresh(path: str | Path, rom: Rom) -> Footprint:
     scene = scene.but(contact__tangential=False)  # no tangential DoFs are needed
     strips = prepare(scene, rom, scene.speeds.omega(rom.f1)[0]).strips
     ends = [profile_at(strips.tip, s)[0] for s in (-strips.tip.half, strips.tip.half)]
-    gap, fresh = float(scene.clearance.gaps(LEADING, rom.span)), np.zeros(strips.d.size)
+    gap, fresh = float(given_gaps(scene.gaps, rom, LEADING)), np.zeros(strips.d.size)
     u_r = strips.g0[STRIP] + min(PRESSED * max(ends), DEEPEST * gap)
     return footprint(strips, gap, place(strips, 0), fresh, 0.0, u_r)
 

@@ -10,6 +10,7 @@ import numpy as np
 import xarray as xr
 
 from rom.model import Rom
+from simulate.contact.gaps import given_gaps
 from simulate.errors.signals import amplitude, spectrum
 from simulate.marching import march, prepare
 from simulate.scene import LEADING, Scene
@@ -84,7 +85,7 @@ def growth(scene: Scene, rom: Rom, name: str, case: Mapping[str, Any]) -> dict[s
     long = scene.but(rounds=ROUNDS, record__history={"chord": [LEADING]})
     outcome = march(long, prepare(long, rom, speed * rom.omega1))
     windows = outcome.u_r[:, 0].reshape(ROUNDS // WINDOW, -1)
-    gap = float(scene.clearance.gaps(LEADING, rom.span))
+    gap = float(given_gaps(scene.gaps, rom, LEADING))
     amplitudes = [amplitude(spectrum(window), WINDOW, int(ORDER)) / gap for window in windows]
     return {
         "name": name,

@@ -113,7 +113,7 @@ def scene_settings(name):
             f"{scene_file(name)}: {key}: blade {scene.blade!r} is a model or matrices from elsewhere, "
             f"without the mesh that pictures of the whole blade and gauges need: take it out"
         )
-    if name in EXPLORED and scene.clearance.at_rest:
+    if name in EXPLORED and scene.gaps.vary:
         raise WorkflowError(refused_at_rest(name))
     if name in EXPLORED and scene.design:
         raise WorkflowError(
@@ -130,7 +130,7 @@ def refused_at_rest(name):
     """Why a scene with gaps at rest has no page."""
     return (
         f"workflow/config.yaml: explore: {name!r}: its page has one gap for all speeds: allowed are "
-        f"scenes with `clearance: {{at: running}}`"
+        f"scenes with `clearance: {{at: running}}`, without a line or a table of the shift"
     )
 
 
@@ -409,7 +409,7 @@ def sweep_before(wildcards):
 
 def stress_of_page(wildcards):
     """The stresses of a scene that keeps its motion, for its page; without gaps at rest."""
-    if SCENES[wildcards.scene].clearance.at_rest:
+    if SCENES[wildcards.scene].gaps.vary:
         raise WorkflowError(refused_at_rest(wildcards.scene))
     path = f"results/{wildcards.blade}/{wildcards.scene}/stress.json"
     return path if keeps_motion(SCENES[wildcards.scene]) else []
