@@ -94,7 +94,7 @@ class Rom(Stored):
     )
     # (powers, n_c): axial displacement of a tip that tapers there, likewise; else (0, n_c)
     advance: NDArray[np.float64] = stored(
-        "advance_power growth_xi",
+        "advance_power advance_xi",
         "m (rad s-1)^-power",
         default_factory=lambda: np.empty((0, 0)),
         long_name="static axial displacement of the tip",

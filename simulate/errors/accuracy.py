@@ -43,9 +43,10 @@ from simulate.scene import Scene
 
 EDGE_FALL = 0.1  # of the gap: largest fall of the tip's edge over a rod
 STEPS = 0.46  # in a footprint times the cubic root of the accuracy: of the first try
-# Of the first try on a casing that tapers, where more modes respond: its error is up to so many
-# times the estimate (512 steps on rotor 37; with 768 it is the estimate)
-DOUBT = 3.0
+# Of a first try on a casing that tapers, where more modes respond, whose step passes more than this
+# share of the footprint: its error is up to so many times the estimate (512 steps on rotor 37; with
+# 768 it is the estimate)
+LONG, DOUBT = 0.6, 3.0
 STIFFNESS = 400.0  # of contact in a step, times the accuracy: of the first try
 FIRST_STRIPS = 6.5  # over the root of the accuracy: of the first try
 STRIPS_BY, MOST_STRIPS = 8, 64  # outputs are means over eighths of the chord
@@ -166,7 +167,8 @@ def choose(scene: Scene, rom: Rom, model_error: ModelError) -> Choice:
     worst = max(runs.values(), key=_error)
     expected = min(worst.largest_error, 1.0)
     for attempt in range(TRIES):
-        doubt = DOUBT if attempt == 0 and worst.setup.places.slope.any() else 1.0
+        long = LONG * fineness.steps_per_round < _around(scene, rom)
+        doubt = DOUBT if attempt == 0 and long and worst.setup.places.slope.any() else 1.0
         if (
             doubt * worst.largest_error <= MET * scene.allowed_error
             or fineness.steps_per_round >= MOST_STEPS

@@ -79,7 +79,7 @@ def rest(tmp_path_factory):
     return Rest(solid, R, fom.M, next(states).K, cholesky)
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 @pytest.mark.parametrize("edge", [0, 1])
 def test_it_is_that_of_the_equilibrium_of_rotor_67_under_a_tip_load(rest, edge):
     """At both edges: the part of the displacement that is even in the load, without the first mode.

@@ -42,11 +42,10 @@ from simulate.marching import SceneError, march, prepare
 from simulate.sweeps.dataset import scene_of
 from simulate.sweeps.over_speeds import as_sweep, at_speeds, check_sweep, march_one, set_up
 
-pytestmark = pytest.mark.slow
-
 BLADES = ROOT / "workflow/blades"
 ASKED, SPEEDS = 0.01, 12
 DRAWN = {0.01: 16, 0.02: 12, 0.05: 12, 0.1: 12}  # scenes by accuracy
+USUAL = 0.1  # the others are nightly
 # Steps marched over those set by hand, median of the scenes: as asked for at 5 and 10 % alone
 MEDIAN_COST = {0.01: 2.1, 0.02: 1.7, 0.05: 1.5, 0.1: 1.5}
 FINER = 4  # times the steps of a run, in its reference
@@ -177,7 +176,13 @@ def carried_out(case, models, taken):
     )
 
 
-@pytest.mark.parametrize("asked", DRAWN)
+@pytest.mark.parametrize(
+    "asked",
+    [
+        pytest.param(asked, marks=pytest.mark.slow if asked == USUAL else pytest.mark.nightly)
+        for asked in DRAWN
+    ],
+)
 def test_drawn_scenes_meet_their_accuracy(asked, reference, rotor37, monkeypatch):
     """Errors of step, rods, strips and model together; share of sensitive runs; steps marched.
 
@@ -212,6 +217,7 @@ def test_drawn_scenes_meet_their_accuracy(asked, reference, rotor37, monkeypatch
 
 
 @pytest.mark.parametrize(("seed", "E", "K"), [(6, 29.0, 13.05), (2, 7.0, 1.0)])
+@pytest.mark.nightly
 def test_a_demand_is_met_where_a_finer_one_is(seed, E, K, reference):
     """On long steps the coarser model can move in another way: its part seems larger than it is."""
     case = drawn(np.random.default_rng(seed), "reference")
@@ -233,6 +239,7 @@ def asking(reference):
     return case, rom, choice, case.speeds.omega(rom.f1)[0], coarser(rom)
 
 
+@pytest.mark.slow
 def test_a_choice_is_recorded_with_the_errors_of_every_run(asking, tmp_path):
     case, rom, choice, *_ = asking
     (tmp_path / "settings.json").write_text(json.dumps(choice.plain()))
@@ -250,6 +257,7 @@ def test_a_choice_is_recorded_with_the_errors_of_every_run(asking, tmp_path):
     assert (runs["steps_per_round"] >= choice.steps_per_round).all()
 
 
+@pytest.mark.slow
 def test_strips_are_chosen_for_their_share_of_the_error(asking):
     """A multiple of eight, as outputs are by eighths of the chord; the error is of second order."""
     case, rom, choice, Omega, coarse = asking
@@ -262,12 +270,14 @@ def test_strips_are_chosen_for_their_share_of_the_error(asking):
     assert expected < 0.5 * ASKED
 
 
+@pytest.mark.slow
 def test_runs_of_the_pilot_are_not_marched_again(asking, monkeypatch):
     case, rom, choice, Omega, _ = asking
     monkeypatch.setattr(of_run, "march", None)
     assert march_to_accuracy(case, rom, Omega, choice) is choice.runs[Omega]
 
 
+@pytest.mark.slow
 def test_a_run_that_misses_its_accuracy_is_repeated_with_shorter_steps(asking):
     """In proportion to the error, part of it that of strips and model; rods stay as they are."""
     case, rom, choice, Omega, coarse = asking
@@ -279,6 +289,7 @@ def test_a_run_that_misses_its_accuracy_is_repeated_with_shorter_steps(asking):
     assert Fineness.of(again.setup) == Fineness(again.setup.steps, 1535, few.strips)
 
 
+@pytest.mark.slow
 def test_each_error_is_estimated_by_its_own_coarser_run(asking, reference):
     """Errors of step and rods, strips and model, each against a run finer in that alone."""
     case, rom, _, Omega, coarse = asking
@@ -296,6 +307,7 @@ def test_each_error_is_estimated_by_its_own_coarser_run(asking, reference):
         assert 0.2 * estimated[part] < error < 1.2 * estimated[part], part
 
 
+@pytest.mark.slow
 def test_an_estimate_from_four_times_the_step_agrees_with_that_from_twice(asking):
     """Calibrated at one speed of the scene, taken at another."""
     case, rom, choice, Omega, coarse = asking
@@ -306,6 +318,7 @@ def test_an_estimate_from_four_times_the_step_agrees_with_that_from_twice(asking
     assert 0.5 < ratio < 2
 
 
+@pytest.mark.slow
 def test_a_run_that_misses_its_accuracy_with_shorter_steps_is_sensitive(asking):
     case, rom, choice, Omega, _ = asking
     missed, chosen = replace(choice, accuracy=1e-4, runs={}), choice.scene(case)
@@ -325,6 +338,7 @@ def check_of(rom, path):
     return path
 
 
+@pytest.mark.slow
 def test_a_coarse_basis_or_mesh_is_refused_with_its_error(asking, reference, tmp_path):
     """The check must be of the model, and the error of the mesh of its mesh, or unknown."""
     case, rom, *_ = asking
@@ -361,6 +375,7 @@ HARD = {"liner__law__E": 7.0, "liner__law__K": 4.55, "liner__law__unit_Pa": 8e9}
         (16, {"liner__worn_through": "casing"}, SceneError, "accuracy"),
     ],
 )
+@pytest.mark.slow
 def test_too_few_patches_are_refused(asking, paper_reduced, patches, changes, kind, key):
     case, rom, *_ = asking
     models = {0: paper_reduced[0], 8: coarser(rom)[0], 16: rom}
@@ -368,6 +383,7 @@ def test_too_few_patches_are_refused(asking, paper_reduced, patches, changes, ki
     assert (error.key, error.value) == (key, 0.01 if key else None)
 
 
+@pytest.mark.slow
 def test_strips_whose_error_exceeds_the_accuracy_are_refused(asking, monkeypatch):
     """Where even the most strips allowed are too few."""
     case, rom, *_ = asking
@@ -388,6 +404,7 @@ def test_strips_whose_error_exceeds_the_accuracy_are_refused(asking, monkeypatch
         (32, 0.1, {"liner__worn_through": "casing"}, 32),
     ],
 )
+@pytest.mark.slow
 def test_the_strips_chosen_are_no_fewer_than_the_patches(patches, accuracy, changes, first):
     """Nor do they fall afterwards, when their error asks for none."""
     case = scene(**TO_CHOOSE, accuracy=accuracy, **changes)
@@ -396,6 +413,7 @@ def test_the_strips_chosen_are_no_fewer_than_the_patches(patches, accuracy, chan
     assert _strips_for(case, rom, first, little) == first
 
 
+@pytest.mark.slow
 def test_the_first_step_is_shorter_for_a_higher_accuracy_and_a_stiff_liner(reference):
     """On a stiff liner the stiffness of contact in a step goes with the accuracy."""
     rom, soft = reference.own, scene(**TO_CHOOSE, accuracy=0.1, liner__law__E=0.1)
@@ -413,6 +431,7 @@ def test_the_first_step_is_shorter_for_a_higher_accuracy_and_a_stiff_liner(refer
     assert stiffer[2] / stiffer[0] == pytest.approx(2, rel=0.2)
 
 
+@pytest.mark.slow
 def test_a_tilted_tip_gets_rods_that_resolve_its_edge(coarse_rom):
     """The edge falls by less than a tenth of the gap over a rod; a flat tip needs fewer rods."""
     flat = scene(**TO_CHOOSE, accuracy=ASKED)

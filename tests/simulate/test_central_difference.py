@@ -110,7 +110,7 @@ def test_a_run_is_that_of_the_peer_over_the_first_thousand_contact_steps(coarse_
     assert assert_is_that_of_the_peer(of_peer, case, coarse_rom, 0.33, 1e-8) > 1000
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 def test_a_run_is_that_of_the_peer_over_five_calm_rounds(coarse_rom):
     case = scene(rounds=5, casing__ramp_rounds=1, record__history__chord=over_strips())
     of_peer, steps = peer.central_difference, set_up(case, coarse_rom, 0.38).steps

@@ -46,7 +46,7 @@ def single(u, wear, forces=1.0, status="ok", **places):
         "wear": wear,
         "ends": ends,
     }
-    of["each"] = Rounds.unknown(ROUNDS, 0.0)
+    of |= {"each": Rounds.unknown(ROUNDS, 0.0), "u_t": np.empty(0)}
     of |= dict.fromkeys(("force_peak", "force_mean", "force_tangential_mean"), force)
     one = dict.fromkeys(("width", "radius"), np.full(len(wear), len(wear) ** -0.5)) | places
     setup = SimpleNamespace(places=SimpleNamespace(**one), steps=4096)

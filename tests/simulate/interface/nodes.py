@@ -135,6 +135,7 @@ def _setup(scene: Scene, rom: Rom, Omega: float, moves: Moves, places: Places) -
         Phi=Phi,
         Phi_b=Phi_b,
         Phi_out=moves.at_leading @ Phi,
+        Phi_timing=Phi[:0],
         places=places,
         strips=strips_under(scene, rom, places, setup.Omega, setup.steps, compliance),
         bound=np.inf,
