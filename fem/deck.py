@@ -48,13 +48,16 @@ class Deck(NamedTuple):
         R = kron(eye_array(len(self.numbers)), self.turn, format="csr")
         return csr_matrix(self.unit * (R @ file.A[kept][:, kept] @ R.T))
 
-    def interface(self, patches: int) -> tuple[csr_matrix, NDArray[np.float64]]:
-        """S (3 patches, 3 n) and camber line, as ``on_patches``.
+    def interface(
+        self, patches: int, across: int
+    ) -> tuple[csr_matrix, NDArray[np.float64], NDArray[np.float64]]:
+        """S (3 across patches, 3 n), camber line and sides, as ``on_patches``.
 
         Middle nodes of diagonals move as the quadrilateral with eight nodes that they lie in.
         """
-        S, camber = on_patches(self.points, self.tip, np.arange(3 * len(self.points)), patches)
-        return csr_matrix(S @ kron(self.weights, eye_array(3))), camber
+        free = np.arange(3 * len(self.points))
+        S, camber, sides = on_patches(self.points, self.tip, free, patches, across)
+        return csr_matrix(S @ kron(self.weights, eye_array(3))), camber, sides
 
     def _rows(self, file: FileMatrix) -> NDArray[np.int64]:
         """Node and direction of each row; those that the file names, else by number."""

@@ -64,7 +64,7 @@ def read_matrices(blade: GivenMatrices, name: str, folder: str | Path) -> Matric
     deck = deck_of(files.mesh_file, folder) if files.mesh_file else _of_nodes(files, folder)
     M = _symmetric(folder / files.M, "M", deck)
     K = tuple(_symmetric(folder / files.K[speed], "K", deck) for speed in blade.speeds)
-    S, camber = _interface(files, folder, deck, blade.patches)
+    S, camber, sides = _interface(files, folder, deck, **blade.settings_of_matrices()["interface"])
     hashes = [file_hash(folder / file) for file in blade.files]
     fom = Matrices(
         M=M,
@@ -74,6 +74,7 @@ def read_matrices(blade: GivenMatrices, name: str, folder: str | Path) -> Matric
         xi=hat_nodes(blade.patches),
         points=np.empty((0, 3)),
         camber=camber,
+        sides=sides,
         span=float(camber[:, 0].mean() - deck.hub_radius),
         speeds=np.array(blade.speeds),
         u_static=np.full((len(K), M.shape[0]), np.nan),  # not known
@@ -101,11 +102,11 @@ def _of_nodes(files: FullMatrices, folder: Path) -> Deck:
 
 
 def _interface(
-    files: FullMatrices, folder: Path, deck: Deck, patches: int
-) -> tuple[csr_matrix, NDArray[np.float64]]:
-    """S (3 patches, n_full) and camber line, of files or on the facets of the tip."""
+    files: FullMatrices, folder: Path, deck: Deck, patches: int, across: int
+) -> tuple[csr_matrix, NDArray[np.float64], NDArray[np.float64]]:
+    """S, camber line and sides as of ``on_patches``, of files or on the facets of the tip."""
     if files.S is None:
-        return deck.interface(patches)
+        return deck.interface(patches, across)
     S, needed = read_matrix(folder / files.S, "S").A, (3 * patches, 3 * len(deck.numbers))
     require(
         folder / files.S,
@@ -115,7 +116,7 @@ def _interface(
             "for each of `patches` and `nodes`",
         ),
     )
-    return S, _camber(_table(folder / known(files.camber, "camber"), XYZ))
+    return S, _camber(_table(folder / known(files.camber, "camber"), XYZ)), np.empty((2, 0))
 
 
 def _check(fom: Matrices, files: FullMatrices, folder: Path) -> None:

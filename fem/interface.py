@@ -5,6 +5,10 @@ of the tip's facets and the local e = e_r, e_theta or e_z,
 
     B_i = int phi_i e.v dA,    G_ij = int phi_i phi_j dA,    S = G^-1 B,    c = S u
 
+With two rows across the thickness the functions are phi_i(xi) {1 - eta, eta}, eta from the edge
+behind to the edge ahead at equal z, and xi the chord fraction of the camber line at that z. First
+come those of the edge behind.
+
 c are the coefficients of the L2 projection of the tip's displacement on the hat functions: S is
 exact for constants and fields linear along the chord. Its transpose gives the nodal loads of forces
 on the coefficients, the dual traction, with equal virtual work. For a point, S has the shape
@@ -47,19 +51,21 @@ def interface_of(solid: Solid, blade: Blade) -> InterfaceOperator:
         x, y, z = there.T
         rtz = np.column_stack([np.hypot(x, y), np.arctan2(y, x), z])
         S = at_places(_spread(values, nodes, len(points)), there, solid.free)
-        return InterfaceOperator(S, tip.xi(there), rtz, tip.camber_line())
+        line = tip.camber_line()
+        return InterfaceOperator(S, tip.xi(there), rtz, line, tip.at_z(line[:, 2]))
     xi = hat_nodes(blade.interface.patches)
-    S, camber = on_patches(points, facets, solid.free, len(xi))
-    return InterfaceOperator(S, xi, np.empty((0, 3)), camber)
+    S, camber, sides = on_patches(points, facets, solid.free, len(xi), blade.interface.across)
+    return InterfaceOperator(S, xi, np.empty((0, 3)), camber, sides)
 
 
 def on_patches(
-    points: NDArray[np.float64], facets: NDArray, free: NDArray, patches: int
-) -> tuple[csr_matrix, NDArray[np.float64]]:
-    """S (3 patches, n_full) on the tip's ``facets`` (k, 6) between ``points`` (n, 3), m; camber.
+    points: NDArray[np.float64], facets: NDArray, free: NDArray, patches: int, across: int
+) -> tuple[csr_matrix, NDArray[np.float64], NDArray[np.float64]]:
+    """S (3 across patches, n_full) on the tip's ``facets`` (k, 6) between ``points`` (n, 3), m.
 
-    ``free``: numbers of the free DoFs among all, three for each point. The camber line (places, 3)
-    is r, theta, z at equally spaced xi from 0 to 1.
+    ``free``: numbers of the free DoFs among all, three for each point. Then the camber line
+    (places, 3), r, theta, z at equally spaced xi from 0 to 1, and the angles of both sides at its z
+    (2, places), rad.
 
     Raises
     ------
@@ -71,14 +77,17 @@ def on_patches(
     at, dA, values = quadrature(points[facets])
     at_xi = tip.xi(at.reshape(-1, 3))
     _require_on_chord(at_xi)
-    phi, e = hats(at_xi, xi), directions(at.reshape(-1, 3))
+    phi, e, line = hats(at_xi, xi), directions(at.reshape(-1, 3)), tip.camber_line()
+    if across == 2:
+        there, eta = tip.across(at.reshape(-1, 3))
+        phi = np.hstack([hats(there, xi) * part[:, None] for part in (1 - eta, eta)])
     G = phi.T @ (phi * dA.reshape(-1, 1))
     v = _spread(
         np.tile(values, (len(facets), 1)), np.repeat(facets, len(values), axis=0), len(points)
     )
     weighted = np.linalg.solve(G, (phi * dA.reshape(-1, 1)).T)
     rows = [csr_matrix((weighted * e[:, d, c]) @ v) for d in range(3) for c in range(3)]
-    return _assembled(rows, free), tip.camber_line()
+    return _assembled(rows, free), line, tip.at_z(line[:, 2])
 
 
 def at_places(weights: csr_matrix, places: NDArray[np.float64], free: NDArray) -> csr_matrix:

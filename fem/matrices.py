@@ -29,13 +29,21 @@ class Prestressed:
 class InterfaceOperator:
     """S, with the places of the interface on the tip."""
 
-    # (3 n, n_full), 3 i + d: direction d (radial, tangential, axial) of patch or point i
+    # (3 n, n_full), 3 i + d: direction d (radial, tangential, axial) of patch or point i; with two
+    # rows across the thickness (6 n, n_full), first those of the edge behind
     S: csr_matrix = stored("coefficient dof", sparse=True)
     xi: NDArray[np.float64] = stored("xi")  # (n,), chord fractions: nodes of hats, or points
     # (n, 3), r, theta, z of points; (0, 3) of patches
     points: NDArray[np.float64] = stored("place rtz", "m, rad, m")
     # (places, 3), r, theta, z at equally spaced xi from 0 to 1
     camber: NDArray[np.float64] = stored("camber_place rtz", "m, rad, m")
+    # (2, places): angles of the sides behind and ahead at the z of these places; (2, 0): not known
+    sides: NDArray[np.float64] = stored("side camber_side", "rad")
+
+    @property
+    def across(self) -> int:
+        """Rows across the thickness."""
+        return self.S.shape[0] // (3 * len(self.xi))
 
 
 @frozen
@@ -53,7 +61,7 @@ class Constants(InterfaceOperator):
 
     def rows(self, directions: Collection[str]) -> csr_matrix:
         """Rows of S (directions n, n_full) of each patch or point in ``directions``, of "rtz"."""
-        kept = np.tile([letter in directions for letter in "rtz"], len(self.xi))
+        kept = np.tile([letter in directions for letter in "rtz"], self.S.shape[0] // 3)
         return self.S[kept]
 
     @property
@@ -128,7 +136,9 @@ class Matrices(Constants, Stored):
         ValueError
             If not; the message says which.
         """
-        if self.S.shape[0] != 3 * len(self.xi) or self.M.shape[0] != 3 * len(self.coordinates):
+        if self.S.shape[0] not in (3 * len(self.xi), 6 * len(self.xi)) or self.M.shape[
+            0
+        ] != 3 * len(self.coordinates):
             raise ValueError("xi or coordinates: not of three DoFs each")
         if len(self.K) != len(self.speeds):
             raise ValueError(f"K: {len(self.K)} matrices at {len(self.speeds)} speeds")

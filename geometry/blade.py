@@ -178,6 +178,11 @@ class Interface(Settings):
         le=64,
         description="Patches of the tip: hat functions along the chord, for its displacement",
     )
+    across: Literal[1, 2] = Field(
+        default=2,
+        description="Rows across the thickness: 2, the edges behind and ahead in rotation, linear "
+        "between; 1, their mean, without lean and torsion of the tip",
+    )
     nodes: int = Field(
         default=8,
         ge=2,
@@ -391,10 +396,10 @@ class Blade(SettingsFile):
     @checked
     def _patches_or_points(self) -> None:
         given = self.interface.model_fields_set
-        if self.of_points and "patches" in given:
+        if self.of_points and (keys := [key for key in ("patches", "across") if key in given]):
             raise SettingsError(
                 "basis paper has points: give nodes and along, or points_mm",
-                key="interface.patches",
+                key=f"interface.{keys[0]}",
             )
         if not self.of_points and (points := [key for key in OF_POINTS if key in given]):
             raise SettingsError(

@@ -2,7 +2,7 @@
 
 from math import pi
 from pathlib import Path, PurePath
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -119,11 +119,25 @@ class GivenMatrices(SettingsFile):
 
     full_matrices: FullMatrices = Field(description="Matrices made elsewhere")
     patches: int = Field(default=16, ge=2, le=64, description="Patches of the tip")
+    across: Literal[1, 2] | None = Field(
+        default=None, description="Rows across the thickness: 2, or 1 where S is given"
+    )
     max_speed_rad_s: float | None = Field(
         default=None, gt=0, description="Omega_m (rad/s), where K is given at rest alone"
     )
     max_speed_rpm: float | None = Field(default=None, gt=0, description="The same in rpm")
     basis: EnrichedBasis = Field(default=EnrichedBasis(), description="Reduction basis")
+
+    @checked
+    def _one_row_of_S(self) -> None:
+        if (self.across or 1) > self._most_across:
+            raise SettingsError(
+                "S has one row across the thickness", key="across", value=self.across, allowed=1
+            )
+
+    @property
+    def _most_across(self) -> int:
+        return 1 if self.full_matrices.S else 2
 
     @checked
     def _one_highest_speed(self) -> None:
@@ -167,7 +181,7 @@ class GivenMatrices(SettingsFile):
         """Settings on which the matrices depend, besides their files."""
         return {
             "full_matrices": self.speeds,
-            "interface": {"patches": self.patches},
+            "interface": {"patches": self.patches, "across": self.across or self._most_across},
             "max_speed_rad_s": self.top_speed,
             "mesh": self.full_matrices.model_dump(mode="json", include={"mesh_file"}),
         }

@@ -22,6 +22,27 @@ def hats(xi: ArrayLike, nodes: NDArray[np.float64]) -> NDArray[np.float64]:
     return values
 
 
+def mean(across: int) -> tuple[float, ...]:
+    """Weights of a strip's edges, behind and ahead, in its mean; of one that has no two: (1,)."""
+    return (1 / across,) * across
+
+
+def lean(across: int) -> tuple[float, ...]:
+    """Weights of a strip's edges in the lean: ahead less behind; 0 where it has no two."""
+    return (-1.0, 1.0) if across == 2 else (0.0,)
+
+
+def over_edges(
+    xi: ArrayLike, nodes: NDArray[np.float64], weights: tuple[float, ...]
+) -> NDArray[np.float64]:
+    """Hats (places, edges nodes) at ``xi`` of coefficients edge by edge, with ``weights`` of each.
+
+    >>> over_edges([0.5], hat_nodes(2), lean(2))
+    array([[-0.5, -0.5,  0.5,  0.5]])
+    """
+    return np.hstack([weight * hats(xi, nodes) for weight in weights])
+
+
 def hat_nodes(n: int) -> NDArray[np.float64]:
     """Chord fractions (n,) of the nodes of ``n`` hats, both ends included; n from 2."""
     return np.linspace(0, 1, n)

@@ -168,7 +168,7 @@ def _variables(f: Field, value: Any) -> dict[str, tuple]:
     return {f"{f.name}_{part}": (f"{f.name}_{part}_entry", getattr(A, part)) for part in CSR}
 
 
-def _read(dataset: xr.Dataset, f: Field) -> NDArray | float | tuple[str, ...]:
+def _read(dataset: xr.Dataset, f: Field) -> NDArray | float | int | tuple[str, ...]:
     """Value of a field that is not sparse."""
     name, layout = f.name, f.metadata
     values = dataset[name].values
@@ -176,6 +176,8 @@ def _read(dataset: xr.Dataset, f: Field) -> NDArray | float | tuple[str, ...]:
         raise ValueError(f"{name}: dimensions {dataset[name].dims}, not {layout['dims']}")
     if f.type == tuple[str, ...]:
         return tuple(map(str, values))
+    if f.type is int and values.dtype.kind == "i" and not values.ndim:
+        return int(values)
     if values.dtype != float:
         raise ValueError(f"{name}: of type {values.dtype}, not of floating point")
     if not layout["may_be_nan"] and not np.isfinite(values).all():

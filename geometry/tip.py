@@ -11,6 +11,7 @@ from typing import Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy.interpolate import make_interp_spline
 
 from geometry.hats import middles
 from geometry.outline import enclosed
@@ -20,6 +21,8 @@ NEAR_ENDS = np.array([0.01, 0.02, 0.03])  # chord fractions, behind most of a bl
 TO_END = np.array([3.0, -3.0, 1.0])  # parabolic extrapolation from there to the end of the chord
 PLACES = 101  # of the camber line; they include NEAR_ENDS
 EDGES = (1 / 16, 15 / 16)  # chord fractions at which gaps and outputs are given
+FOLD = 2e-3  # of the axial length, by which z may go back along a side: at a round edge
+LEAST_THICK = 1e-6  # m, where the thickness at equal z vanishes
 TURNS = 6  # iterations of the chord's direction; the error falls by edge radius over chord in each
 
 
@@ -83,6 +86,53 @@ class DevelopedTip:
             When the outline folds over its chord.
         """
         return self._sides(np.asarray(xi))[1]
+
+    def _edges(self) -> list[NDArray[np.float64]]:
+        """Both sides of the outline from its least z to its largest, (k, 3)."""
+        line = np.roll(self.outline, -int(self.outline[:, 2].argmin()), axis=0)
+        last = int(line[:, 2].argmax())
+        return [line[: last + 1], np.vstack([line[last:], line[:1]])[::-1]]
+
+    @property
+    def has_two_edges(self) -> bool:
+        """Whether each circle about the engine axis meets the outline twice, a round edge apart."""
+        back = (np.maximum.accumulate(side[:, 2]) - side[:, 2] for side in self._edges())
+        ascends = (np.diff(self.camber_line()[:, 2]) > 0).all()
+        return bool(ascends) and max(map(np.max, back)) <= FOLD * np.ptp(self.outline[:, 2])
+
+    def at_z(self, z: ArrayLike) -> NDArray[np.float64]:
+        """Angles (2, n), rad, of the sides behind and ahead in rotation at axial places ``z``, m.
+
+        Those of the nearest end beyond the outline; (2, 0) of a tip without two edges.
+        """
+        if not self.has_two_edges:
+            return np.empty((2, 0))
+        ascending = ((np.maximum.accumulate(side[:, 2]), side[:, 1]) for side in self._edges())
+        return np.sort([np.interp(z, *side) for side in ascending], axis=0)
+
+    def across(self, points: NDArray[np.float64]) -> tuple[NDArray, NDArray]:
+        """Chord fraction (n,) of the camber line at the same z, and eta (n,), of ``points`` (n, 3).
+
+        eta goes from 0 on the side behind to 1 on the side ahead, at equal z. Beyond its ends the
+        camber line goes on straight.
+
+        Raises
+        ------
+        MeshError
+            When the tip has no two edges.
+        """
+        if not self.has_two_edges:
+            raise MeshError(
+                "a circle about the engine axis meets the outline of the tip more than twice, so "
+                "that it has no edge behind and ahead; allowed 1",
+                key="interface.across",
+            )
+        x, y, z = np.asarray(points, dtype=float).T
+        theta = np.angle((x + 1j * y) * np.exp(-1j * self.theta)) + self.theta
+        behind, ahead = self.at_z(z)
+        eta = (theta - behind) / np.maximum(ahead - behind, LEAST_THICK / self.radius)
+        xi = make_interp_spline(self.camber_line()[:, 2], np.linspace(0, 1, PLACES), k=1)
+        return xi(z), eta
 
     def camber_height(self) -> float:
         """Mean height of the camber line over its chord; positive if its concave side is ahead.

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
-from geometry.hats import hats
+from geometry.hats import mean, over_edges
 from geometry.project import Caution, Provenance
 from geometry.stored import Stored, frozen, stored
 from rom.between import error_between
@@ -135,7 +135,8 @@ def check(rom: Rom, full: FullModel) -> RomCheck:
         )
     reduced = np.array([_frequencies(rom, speed) for speed in full.speeds])
     # of the full model in each direction: speeds, places, 3
-    P, C = hats(rom.places, rom.xi), full.compliance.reshape(-1, *(len(rom.xi), 3) * 2)
+    P = over_edges(rom.places, rom.xi, mean(rom.across))
+    C = full.compliance.reshape(-1, *(P.shape[1], 3) * 2)
     of_each = np.einsum("pi,sidjd,pj->spd", P, C, P)
     compliance = np.array([rom.compliance(speed) for speed in full.speeds])
     kept = [name in rom.directions for name in DIRECTIONS.values()]

@@ -35,7 +35,7 @@ def coarser(rom: Rom) -> tuple[Rom, NDArray[np.float64]]:
         )
     basis = EnrichedBasis(**rom.provenance.settings["basis"])
     nodes, directions = hat_nodes(len(rom.xi) // 2), len(rom.directions)
-    along = projection(rom.xi, nodes)
+    along = np.kron(np.eye(rom.across), projection(rom.xi, nodes))
     Pi = np.kron(along, np.eye(directions))
     S = np.hstack([Pi, np.zeros((len(Pi), rom.n - Pi.shape[1]))])
     modes = ceil(MODES * basis.natural_modes)

@@ -25,7 +25,7 @@ from rom.model import CODE, DIRECTIONS, Rom, RomError
 NAMES = tuple(DIRECTIONS.values())
 ALLOWED = (NAMES[:1], NAMES[:2], NAMES, NAMES[::2])  # of the interface DoFs
 OPTIONAL = (
-    *("points", "f1", "growth", "advance", "speeds", "slope", "u_t"),
+    *("points", "f1", "growth", "advance", "speeds", "slope", "u_t", "across", "sides"),
     *("gauges", "gauge_rows"),
 )
 PAGE = "rom/README.md, A reduced model from elsewhere,"
@@ -155,15 +155,19 @@ def _values(path: str | Path) -> dict[str, Any]:
 
 def _rom(variables: dict[str, Any], blade: str, mesh: str) -> Rom:
     """The model of the values in a file, with the settings by which a coarser one is made."""
-    arrays = "M", "K", "xi", "points", "camber", "growth", "advance", "speeds", "slope", "u_t"
+    arrays = (
+        *("M", "K", "xi", "points", "camber", "growth", "advance", "speeds", "slope", "u_t"),
+        "sides",
+    )
     values: dict[str, Any] = {
         "points": np.empty((0, 3)),
         **{name: np.asarray(variables[name], float) for name in arrays if name in variables},
         **{name: float(variables.get(name, np.nan)) for name in ("Omega_m", "span", "f1")},
+        "across": int(variables.get("across", 1)),
     }
     directions = tuple(map(str, np.atleast_1d(variables["directions"])))
     # DoFs besides those of the interface
-    fixed_modes = len(values["M"]) - len(directions) * len(values["xi"])
+    fixed_modes = len(values["M"]) - values["across"] * len(directions) * len(values["xi"])
     basis = EnrichedBasis(
         natural_modes=min(max(fixed_modes, 1), 100), speeds=min(max(len(values["K"]), 3), 9)
     )
@@ -181,7 +185,7 @@ def _first_frequency(rom: Rom) -> float:
 
 
 def _shape_faults(rom: Rom, power: NDArray) -> list[str]:
-    n, n_c = len(rom.M), len(rom.xi) * len(rom.directions)
+    n, n_c = len(rom.M), rom.across * len(rom.xi)
     held = (rom.M, rom.K, rom.xi, rom.points, rom.camber, rom.growth, rom.Omega_m, rom.span)
     return failed(
         (
@@ -197,7 +201,7 @@ def _shape_faults(rom: Rom, power: NDArray) -> list[str]:
             f"directions: {rom.directions}: need {NAMES}, the first or more, or radial and axial",
         ),
         (
-            len(rom.xi) > 1 and 0 < n_c <= n,
+            len(rom.xi) > 1 and 0 < n_c * len(rom.directions) <= n,
             f"xi: {len(rom.xi)} places with {len(rom.directions)} directions: needs two places or "
             f"more, 1 to {n} DoFs",
         ),
@@ -214,8 +218,13 @@ def _shape_faults(rom: Rom, power: NDArray) -> list[str]:
             f"slope {rom.slope.shape}: needs one for each place of camber",
         ),
         (
-            all(not of.size or of.shape[1:] == rom.xi.shape for of in (rom.growth, rom.advance)),
-            f"growth {rom.growth.shape}, advance {rom.advance.shape}: need (powers, {len(rom.xi)})",
+            rom.across in (1, 2) and rom.sides.shape in ((2, 0), (2, len(rom.camber))),
+            f"across {rom.across}, sides {rom.sides.shape}: needs 1 or 2 rows across the "
+            "thickness, and angles of two sides at each place of camber",
+        ),
+        (
+            all(not of.size or of.shape[1:] == (n_c,) for of in (rom.growth, rom.advance)),
+            f"growth {rom.growth.shape}, advance {rom.advance.shape}: need (powers, {n_c})",
         ),
         (rom.u_t.size in (0, 2 * n), f"u_t {rom.u_t.shape}: needs (2, {n})"),
         (

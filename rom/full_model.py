@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from fem.cholesky import Cholesky
 from fem.matrices import CODE, Constants, Prestressed
-from geometry.hats import hat_nodes, hats, middles
+from geometry.hats import hat_nodes, hats, mean, middles, over_edges
 from geometry.project import Provenance
 from geometry.stored import Stored, frozen, stored
 from geometry.tip import EDGES, on_line
@@ -32,7 +32,7 @@ class FullModel(Stored):
     speeds: NDArray[np.float64] = stored("speed", "rad s-1")  # rest first
     omega: NDArray[np.float64] = stored("speed mode", "rad s-1")
     residuals: NDArray[np.float64] = stored("speed mode")  # of these modes
-    # C = S K^-1 S^T, (speeds, 3 n, 3 n), order as in S
+    # C = S K^-1 S^T, (speeds, 3 across n, 3 across n), order as in S
     compliance: NDArray[np.float64] = stored("speed dof dof_", "m N-1")
     shapes: NDArray[np.float64] = stored("shape point xyz", "kg-1/2")  # modes at rest, Cartesian
     coordinates: NDArray[np.float64] = stored("point xyz", "m")  # free nodes of the mesh
@@ -80,7 +80,8 @@ def solve(
         When K is not positive definite, or modes do not converge.
     """
     cholesky, loads = cholesky or Cholesky(), fom.S.T.toarray()
-    edges = np.stack([hats(EDGES, fom.xi) @ fom.rows(letter) for letter in "rtz"])
+    P = over_edges(EDGES, fom.xi, mean(fom.across))
+    edges = np.stack([P @ fom.rows(letter) for letter in "rtz"])
     radius = on_line(fom.camber, np.array(EDGES))[:, :1]
     rows: list[tuple] = []
     shapes: list[NDArray[np.float64]] = []  # at rest, once known

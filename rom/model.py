@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.linalg import eigh
 
 from geometry.blade import RPM
-from geometry.hats import hats, middles, projection
+from geometry.hats import hats, lean, mean, middles, over_edges, projection
 from geometry.project import Provenance, UserError
 from geometry.stored import Stored, frozen, stored
 from geometry.taper import slope_of_line
@@ -58,7 +58,8 @@ def require_speed(Omega: float, Omega_m: float) -> None:
 class Rom(Stored):
     """M and K(Omega) in reduced coordinates (c, q); the interface DoFs c = S u come first.
 
-    DoF d i + j of c belongs to direction j of patch or point i, with d directions.
+    DoF d i + j of c belongs to direction j of patch or point i, with d directions; with two rows
+    across the thickness come those of the edge behind, then those of the edge ahead.
 
     >>> rom = Rom.load("rom-r.nc")
     >>> print(f"f1(0) = {rom.f1:.0f} Hz")
@@ -84,15 +85,21 @@ class Rom(Stored):
     f1: float = stored(units="Hz")  # first natural frequency at rest
     span: float = stored(units="m")  # blade length
     provenance: Provenance  # blade, mesh, settings, code
-    # (powers, n_c): radius of the tip at its static equilibrium less that at rest, on the hats or
-    # at the points, growth(Omega) = sum Omega^power growth; (0, n_c) where it is not known
+    # rows across the thickness: 1, or 2, of the edges behind and ahead
+    across: int = stored(default_factory=lambda: 1)
+    # (2, places): angles of the sides behind and ahead at the z of ``camber``; (2, 0): not known
+    sides: NDArray[np.float64] = stored(
+        "side camber_side", "rad", default_factory=lambda: np.empty((2, 0))
+    )
+    # (powers, across n_c): radius of the tip at its static equilibrium less that at rest, on the
+    # hats or at the points, growth(Omega) = sum Omega^power growth; (0, n_c) where it is not known
     growth: NDArray[np.float64] = stored(
         "growth_power growth_xi",
         "m (rad s-1)^-power",
         default_factory=lambda: np.empty((0, 0)),
         long_name="static growth of the tip's radius",
     )
-    # (powers, n_c): axial displacement of a tip that tapers there, likewise; else (0, n_c)
+    # (powers, across n_c): axial displacement of a tip that tapers there, likewise; else (0, n_c)
     advance: NDArray[np.float64] = stored(
         "advance_power advance_xi",
         "m (rad s-1)^-power",
@@ -136,7 +143,7 @@ class Rom(Stored):
             raise ValueError("xi or points: not along the chord")
         if (
             min(len(self.xi), len(self.camber)) < 2  # displacements are linear between places
-            or not 0 < len(self.xi) * len(self.directions) <= self.n
+            or not 0 < self.across * len(self.xi) * len(self.directions) <= self.n
         ):
             raise ValueError("directions, xi or camber: too many or too few for M")
         try:
@@ -170,8 +177,33 @@ class Rom(Stored):
         """Camber line of the tip at chord fractions ``xi`` (k,): r, theta, z (k, 3), m, rad."""
         return on_line(self.camber, xi)
 
-    def rows(self, xi: NDArray[np.float64], direction: str = "r") -> NDArray[np.float64]:
+    def weights(self, leans: bool) -> tuple[float, ...]:
+        """Weights of the edges in their mean, or in the lean, the edge ahead less that behind."""
+        return lean(self.across) if leans else mean(self.across)
+
+    def arc(self, xi: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Arc r dtheta (k,), m, that the tip covers at the z of chord fractions ``xi`` (k,).
+
+        Raises
+        ------
+        RomError
+            When the model does not know its sides.
+        """
+        if not self.sides.size:
+            raise RomError(
+                "the reduced model does not know the thickness of its tip: give the arc, m, that "
+                "the tip covers",
+                key="liner.footprint_m",
+            )
+        behind, ahead = (np.interp(xi, np.linspace(0, 1, len(s)), s) for s in self.sides)
+        return self.line(xi)[:, 0] * (ahead - behind)
+
+    def rows(
+        self, xi: NDArray[np.float64], direction: str = "r", leans: bool = False
+    ) -> NDArray[np.float64]:
         """P (k, n): displacement at chord fractions ``xi`` (k,) in a direction = P u.
+
+        Of the tip's middle; where it ``leans``, of the edge ahead less that of the edge behind.
 
         Raises
         ------
@@ -186,7 +218,8 @@ class Rom(Stored):
             )
         P = np.zeros((len(xi), self.n))
         first, count = self.directions.index(name), len(self.directions)
-        P[:, first : count * len(self.xi) : count] = hats(xi, self.xi)
+        interface = count * self.across * len(self.xi)
+        P[:, first:interface:count] = over_edges(xi, self.xi, self.weights(leans))
         return P
 
     @property
@@ -196,10 +229,11 @@ class Rom(Stored):
         return self.slope if self.slope.size else slope_of_line(r, z)
 
     def closing_rows(
-        self, xi: NDArray[np.float64], slope: NDArray[np.float64]
+        self, xi: NDArray[np.float64], slope: NDArray[np.float64], leans: bool = False
     ) -> NDArray[np.float64]:
         """P (k, n): u_r - s u_z = P u at chord fractions ``xi`` (k,), under a casing of ``slope``.
 
+        Of the tip's middle, or where it ``leans`` as ``rows``.
         What closes a gap that is measured along the radius; u_r where the slope s (places,) at
         equally spaced xi is 0. The product s u_z is projected on the hats, as S projects
         displacements: taken at the hats' nodes alone it errs by some per cent where s varies.
@@ -210,13 +244,13 @@ class Rom(Stored):
             When the slope is not 0 and the model was reduced without axial interface DoFs.
         """
         if not slope.any():
-            return self.rows(xi)
-        axial = self.rows(self.xi, "z")
+            return self.rows(xi, "r", leans)
+        axial = self.rows(self.xi, "z", leans)
         if self.of_points:
             N = np.diag(np.interp(self.xi, np.linspace(0, 1, len(slope)), slope))
         else:
             N = projection(self.xi, self.xi, slope)
-        return self.rows(xi) - hats(xi, self.xi) @ N @ axial
+        return self.rows(xi, "r", leans) - hats(xi, self.xi) @ N @ axial
 
     @property
     def timing_rows(self) -> NDArray[np.float64]:
@@ -265,8 +299,12 @@ class Rom(Stored):
         rows = [self.rows(self.places, letter) for letter in letters]
         return np.column_stack([np.diag(P @ flexibility @ P.T) for P in rows])
 
-    def growth_at(self, xi: NDArray[np.float64], Omega: float) -> NDArray[np.float64]:
+    def growth_at(
+        self, xi: NDArray[np.float64], Omega: float, leans: bool = False
+    ) -> NDArray[np.float64]:
         """Static growth (k,), m, of the tip's radius at chord fractions ``xi`` (k,) and a speed.
+
+        Of the tip's middle, or where it ``leans`` as ``rows``.
 
         Raises
         ------
@@ -276,13 +314,15 @@ class Rom(Stored):
         require_speed(Omega, self.Omega_m)
         if not self.growth.size:
             raise RomError("the reduced model does not hold the growth of its tip with speed")
-        return hats(xi, self.xi) @ evaluate(self.growth, Omega)
+        return over_edges(xi, self.xi, self.weights(leans)) @ evaluate(self.growth, Omega)
 
-    def advance_at(self, xi: NDArray[np.float64], Omega: float) -> NDArray[np.float64]:
-        """Static axial displacement (k,), m, at chord fractions ``xi`` (k,); 0 without taper."""
+    def advance_at(
+        self, xi: NDArray[np.float64], Omega: float, leans: bool = False
+    ) -> NDArray[np.float64]:
+        """Static axial displacement (k,), m, as ``growth_at``; 0 without taper."""
         if not self.advance.size:
             return np.zeros(len(xi))
-        return hats(xi, self.xi) @ evaluate(self.advance, Omega)
+        return over_edges(xi, self.xi, self.weights(leans)) @ evaluate(self.advance, Omega)
 
     @lru_cache(KEPT)  # noqa: B019  models are few, and leave with their last speed
     def modes(self, Omega: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -7,7 +7,7 @@ from scipy.sparse import csr_matrix
 
 from fem.matrices import Matrices
 from geometry.blade import EnrichedBasis, PaperBasis, settings_of_basis
-from geometry.hats import hats
+from geometry.hats import mean, over_edges
 from geometry.project import Say, counted, silent
 from geometry.tip import EDGES
 from rom.basis import Components, enriched_basis, paper_basis, project
@@ -60,12 +60,16 @@ def reduce(
         points=fom.points,
         camber=fom.camber,
         slope=slope,
+        across=fom.across,
+        sides=fom.sides,
         Omega_m=Omega_m,
         f1=float(np.sqrt(lowest) / (2 * np.pi)),
         span=fom.span,
         growth=growth_of(fom),
-        advance=advance_of(fom) if slope.any() else np.empty((0, len(fom.xi))),
-        u_t=hats(EDGES, fom.xi) @ (fom.rows("t") @ T) if slope.any() else np.empty((0, len(M))),
+        advance=advance_of(fom) if slope.any() else np.empty((0, fom.across * len(fom.xi))),
+        u_t=over_edges(EDGES, fom.xi, mean(fom.across)) @ (fom.rows("t") @ T)
+        if slope.any()
+        else np.empty((0, len(M))),
         speeds=fom.speeds,
         provenance=fom.provenance.made(CODE, basis=settings_of_basis(basis), directions=directions),
     )
@@ -85,16 +89,16 @@ def _basis(
 
 
 def growth_of(fom: Matrices) -> NDArray[np.float64]:
-    """Coefficients (powers, n), m, of the growth on the patches, or at the points, of ``fom``.
+    """Coefficients (powers, across n), m, of the growth on the patches, or at points, of ``fom``.
 
     The radius of each node, ``|x + u|`` less ``|x|`` across the engine axis, is projected like a
     radial displacement: an untwist that moves a node sideways by t counts with t^2 / (2 r). (0, n)
     where the static deflections are not known.
     """
     if np.isnan(fom.u_static).any():
-        return np.empty((0, len(fom.xi)))
+        return np.empty((0, fom.across * len(fom.xi)))
     if not fom.u_static.any():
-        return np.zeros((len(fom.u_static), len(fom.xi)))
+        return np.zeros((len(fom.u_static), fom.across * len(fom.xi)))
     x, y = fom.coordinates[:, 0], fom.coordinates[:, 1]
     r = np.hypot(x, y)
     e_r = np.stack([x / r, y / r, 0 * r], axis=1)
@@ -107,7 +111,7 @@ def growth_of(fom: Matrices) -> NDArray[np.float64]:
 def advance_of(fom: Matrices) -> NDArray[np.float64]:
     """Coefficients (powers, n), m, of the axial displacement of the tip, as those of the growth."""
     if np.isnan(fom.u_static).any():
-        return np.empty((0, len(fom.xi)))
+        return np.empty((0, fom.across * len(fom.xi)))
     return interpolate((fom.S[2::3] @ fom.u_static.T).T, fom.speeds)
 
 

@@ -80,7 +80,7 @@ def coarse_blade() -> Blade:
     """
     blade = Blade.load(ROOT / "workflow/blades/reference.yaml")
     values = blade.model_dump(exclude_unset=True)
-    values |= {"mesh": {"element_size_mm": 10.0}, "interface": {"patches": 8}}
+    values |= {"mesh": {"element_size_mm": 10.0}, "interface": {"patches": 8, "across": 1}}
     return check_settings(Blade, values, "the coarse blade")
 
 

@@ -196,7 +196,7 @@ COMPUTED = (
     ("rotor37", "results/experiments/frequencies/table.json", rotor37.prestress_table),
     ("levels", TRADE, trade_table.by_level),
     ("converges", "results/interface/interface.json", interface.results),
-    ("nodes", "results/interface/interface.json", interface.all_nodes),
+    ("nodes", "results/interface/all-nodes.json", interface.all_nodes),
     ("requirements", TRADE, trade_table.requirements),
     ("rounds", TRADE, trade_table.fewer_rounds),
     ("speeds", TRADE, trade_table.fewer_speeds),

@@ -40,6 +40,17 @@ def gaps_at(of: Gaps, rom: Rom, xi: ArrayLike, Omega: float) -> NDArray[np.float
     return gaps - (grown + (thermal.at(Omega, rom.f1) if thermal else 0.0))
 
 
+def lean_of_gaps(of: Gaps, rom: Rom, xi: NDArray[np.float64], Omega: float) -> NDArray[np.float64]:
+    """Gap at the edge ahead less that at the edge behind (k,), m; 0 for gaps in operation.
+
+    Given at rest, they lose the growth of each edge, and what its axial displacement opens.
+    """
+    if not of.at_rest:
+        return np.zeros(len(xi))
+    opened = slope_at(rom, of.casing, xi) * rom.advance_at(xi, Omega, leans=True)
+    return opened - rom.growth_at(xi, Omega, leans=True)
+
+
 def _opened(
     of: Gaps, rom: Rom, xi: NDArray[np.float64], moved: NDArray[np.float64] | float
 ) -> NDArray[np.float64]:
@@ -90,7 +101,12 @@ def growth_fault(
                         allowed=(first, last),
                     )
                 ]
-    gaps = np.array([gaps_at(of, rom, xi, Omega) for Omega in speeds])
+    gaps = np.array(
+        [
+            gaps_at(of, rom, xi, Omega) - abs(lean_of_gaps(of, rom, xi, Omega)) / 2
+            for Omega in speeds
+        ]
+    )
     at, i = np.unravel_index(gaps.argmin(), gaps.shape)
     Omega, given = speeds[at], float(given_gaps(of, rom, xi[i]))
     if not gaps[at, i] < 0 <= given:

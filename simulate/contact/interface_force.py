@@ -21,6 +21,16 @@ not converge, steps with a share so small that C' is positive go down the energy
 
 convex and smooth, of gradient -C' (R - F), until Newton's steps converge from there. A line search
 makes Newton's method converge from anywhere on such an energy (Pang 1990).
+
+Where the tip leans a strip has two unknowns, one after the other: w and the lean, with the force
+and the moment, its gradient again, and a slope of two by two. The same Newton's steps in the places
+are taken. Where they do not converge, steps in the forces f go down the energy
+
+    f.C f/2 + sum over i of the energy of strip i at v - C f,    df = (1 + F'C)^-1 (F - f),
+
+of gradient C (f - F), which asks for no R_i. The slope of a strip acts at an arm e: F' = L D L^T, D
+diagonal, L = [1 0; e 1]. With C'' = L^T C L both steps have the matrices of one row, 1 + C'' D and
+1 + D C'', whose minors are positive: no row is exchanged.
 """
 
 from typing import NamedTuple
@@ -33,7 +43,7 @@ from simulate.contact.rods import contact_force
 
 # Of unsigned indices: signed ones may count from the end of an array, which takes a branch each
 # and keeps loops from being vectors.
-ONE = np.uint64(1)
+ZERO, ONE, TWO = np.uint64(0), np.uint64(1), np.uint64(2)
 TOLERANCE = 1e-13  # of the displacements that are looked for
 ULP = 2.3e-16  # round-off of a depth in the liner, over its thickness
 FEW = 10  # Newton's steps in the places
@@ -50,6 +60,7 @@ APART, DETECTED, ACTIVE = range(3)  # no rod near; over rods; bearing on them, a
 UNKNOWN = np.dtype(
     [
         ("strip", np.uint64),
+        ("row", np.uint64),  # of the displacements
         ("v", float),  # m, where it would be without force
         ("w", float),  # m, where it is
         ("top", float),  # m, where it meets the rigid casing
@@ -62,6 +73,7 @@ AT_STRIP = np.dtype(
     [
         ("state", int),  # APART, DETECTED or ACTIVE
         ("F", float),  # N, a step before
+        ("moment", float),  # N, along the lean, a step before
         ("reaction", float),  # N, of it by the rigid casing itself
         ("casing", float),  # m, penetration at w = 0 into the rigid casing
     ]
@@ -71,27 +83,32 @@ AT_STRIP = np.dtype(
 class Solver(NamedTuple):
     """Unknowns of a step: the first ``n`` are those of the strips that may bear.
 
+    There are as many as strips, or twice as many where the tip leans: w and the lean in turn.
     Entries of sums and eliminations lie next to each other.
     """
 
-    unknowns: np.recarray  # (strips,), UNKNOWN
-    F: NDArray[np.float64]  # (strips,), N, of the unknowns
-    slope: NDArray[np.float64]  # (strips,), N/m, of F_i, or of R_i
-    change: NDArray[np.float64]  # (strips,), Newton's step: m, or N
-    start: NDArray[np.float64]  # (strips,), N, from which Newton's steps began
+    unknowns: np.recarray  # (n,), UNKNOWN
+    F: NDArray[np.float64]  # (n,), N, of the unknowns
+    slope: NDArray[np.float64]  # (n,), N/m, of F_i, or of R_i
+    arm: NDArray[np.float64]  # (n,), of the force of a strip that leans, where its slope acts
+    turned: NDArray[np.float64]  # (n,), the arms of ``matrix``
+    trial: NDArray[np.float64]  # (n,), N, forces and moments at the places of a tip that leans
+    change: NDArray[np.float64]  # (n,), Newton's step: m, or N
+    start: NDArray[np.float64]  # (n,), N, from which Newton's steps began
     strips: np.recarray  # (strips,), AT_STRIP
-    C: NDArray[np.float64]  # (strips, strips), m/N
-    matrix: NDArray[np.float64]  # (strips, strips), of Newton's step
+    C: NDArray[np.float64]  # (n, n), m/N
+    matrix: NDArray[np.float64]  # (n, n), of Newton's step
     unsolved: NDArray[np.int64]  # (1,), steps in which no forces were found
 
 
-def new_solver(n: int) -> Solver:
-    """Room for the unknowns of ``n`` strips."""
+def new_solver(strips: int, rows: int = 1) -> Solver:
+    """Room for the unknowns of so many strips of 1 row, or 2."""
+    n = rows * strips
     C, matrix = np.zeros((2, n, n))
     return Solver(
         records(n, UNKNOWN),
-        *np.zeros((4, n)),
-        strips=records(n, AT_STRIP),
+        *np.zeros((7, n)),
+        strips=records(strips, AT_STRIP),
         C=C,
         matrix=matrix,
         unsolved=np.zeros(1, np.int64),
@@ -104,7 +121,7 @@ def solve_strip(strips, covered, i, z, c, top, F):
     low, end, last = -np.inf, min(z, top), np.inf
     high, w = end, min(z - c * F, end)
     for _ in range(CUTS):
-        force, _, slope = contact_force(strips, covered, i, w)
+        force, _, _, slope, _, _ = contact_force(strips, covered, i, w, 0.0)
         error = w + c * force - z
         step = error / (1 + c * slope)
         if w == top and error < 0.0:  # more than the rods bear: the casing does, Eq. (8)
@@ -130,12 +147,66 @@ def solve_strip(strips, covered, i, z, c, top, F):
 
 
 @compiled
+def forces_of_leaning(strips, covered, solver, F, n):
+    """Forces and moments ``F`` at the places of the unknowns, with their slopes."""
+    slope, arm = solver.slope, solver.arm
+    for p in range(ZERO, n, TWO):
+        unknown, lean = solver.unknowns[p], solver.unknowns[p + ONE].w
+        force, _, moment, k, crossed, turning = contact_force(
+            strips, covered, unknown.strip, unknown.w, lean
+        )
+        e = crossed / k if k > 0.0 else 0.0
+        F[p], slope[p], arm[p] = force, k, e
+        F[p + ONE], slope[p + ONE], arm[p + ONE] = moment, max(turning - e * crossed, 0.0), 0.0
+
+
+@compiled
+def turn(solver, n):
+    """C'' = L^T C L into the matrix."""
+    A, C, arm = solver.matrix, solver.C, solver.turned
+    copy(solver.arm, arm, n)
+    for p in range(n):
+        for q in range(ZERO, n, TWO):
+            A[p, q], A[p, q + ONE] = C[p, q] + arm[q] * C[p, q + ONE], C[p, q + ONE]
+    for p in range(ZERO, n, TWO):
+        for q in range(n):
+            A[p, q] += arm[p] * A[p + ONE, q]
+
+
+@compiled
+def shear(x, arm, sign, n):
+    """L^T x of displacements, or its inverse with ``sign`` -1."""
+    for p in range(ZERO, n, TWO):
+        x[p] += sign * arm[p] * x[p + ONE]
+
+
+@compiled
+def residual_of_leaning(strips, covered, solver, n):
+    """Residual F(v - C f) - f of the forces f, and the largest over its tolerance."""
+    worst, blur, f = 0.0, ULP * strips.thickness, solver.F
+    places_under_forces(solver, n)
+    forces_of_leaning(strips, covered, solver, solver.trial, n)
+    for p in range(n):
+        at, force, slope = solver.unknowns[p], solver.trial[p], solver.slope[p]
+        at.residual = force - f[p]
+        if force != f[p]:
+            _, terms, _ = row_sums(solver.C, p, f, solver.slope, n)
+            size = abs(solver.trial[p & ~ONE]) + abs(force)  # a moment may cancel
+            stiff = slope + solver.slope[p & ~ONE] * (1 + abs(solver.arm[p & ~ONE])) ** 2
+            allowed = stiff * (10 * TOLERANCE * (abs(at.v) + terms) + blur) + 10 * TOLERANCE * size
+            worst = max(worst, min(abs(at.residual) / allowed, FAR))
+    return worst
+
+
+@compiled
 def residual(strips, covered, solver, n, share):
     """Residual R(z) - F of the active strips, and the largest over its tolerance.
 
     The tolerance is the round-off of the displacements that add up to z, which may cancel, and
     of the depths of worn rods, which may be far more than a blade moves.
     """
+    if len(strips.rows) == 2:
+        return residual_of_leaning(strips, covered, solver, n)
     worst, blur = 0.0, ULP * strips.thickness
     for p in range(n):
         at, c, F = solver.unknowns[p], solver.C[p, p], solver.F[p]
@@ -183,38 +254,48 @@ def substitute(A, x, n):
 
 
 @compiled
-def newton(solver, n, share):
+def newton(strips, solver, n, share):
     """Newton's step on F - R = 0: (1 + R' C') dF = residual.
 
     With R'_i <= 1/D_i the matrix is a positive one, its rows scaled.
     """
-    A = solver.matrix
+    A, C, change, leans = solver.matrix, solver.C, solver.change, len(strips.rows) == 2
+    if leans:
+        turn(solver, n)
+        C = A
     for p in range(n):
-        solver.change[p] = solver.unknowns[p].residual
+        change[p] = solver.unknowns[p].residual
         for q in range(n):
-            A[p, q] = solver.slope[p] * solver.C[p, q]
+            A[p, q] = solver.slope[p] * C[p, q]
         A[p, p] = 1.0 + (1 - share) * A[p, p]
+    if leans:
+        for p in range(ZERO, n, TWO):
+            change[p + ONE] -= solver.turned[p] * change[p]
     eliminate(A, n)
-    substitute(A, solver.change, n)
+    substitute(A, change, n)
+    if leans:
+        for p in range(ZERO, n, TWO):
+            change[p + ONE] += solver.turned[p] * change[p]
 
 
 @compiled
 def newton_from(strips, covered, solver, n):
     """Newton's steps with the whole diagonal, from F; False once one does not halve the residual.
 
-    Forces are clipped at 0: no tension.
+    Forces are clipped at 0: no tension. Where the tip leans, with none of the diagonal, unclipped.
     """
+    share, least = (1.0, 0.0) if len(strips.rows) == 1 else (0.0, -np.inf)
     last = np.inf
     while True:
-        error = residual(strips, covered, solver, n, 1.0)
+        error = residual(strips, covered, solver, n, share)
         if error <= 1.0:
             return True
         if error >= 0.5 * last:
             return False
         last = error
-        newton(solver, n, 1.0)
+        newton(strips, solver, n, share)
         for p in range(n):
-            solver.F[p] = max(solver.F[p] + solver.change[p], 0.0)
+            solver.F[p] = max(solver.F[p] + solver.change[p], least)
 
 
 @compiled
@@ -246,7 +327,7 @@ def slope_along(solver, n):
 def descend(strips, covered, solver, n, share):
     """Newton's step with a ``share`` of the diagonal, cut to where the energy has fallen enough."""
     residual(strips, covered, solver, n, share)
-    newton(solver, n, share)
+    newton(strips, solver, n, share)
     change = solver.change
     for p in range(n):
         diagonal = share * solver.C[p, p] * change[p]
@@ -310,9 +391,14 @@ def misplaced(strips, covered, solver, n):
     """Forces F(w) with their slopes, and v - C F - w; the largest of these over its tolerance."""
     worst, blur = 0.0, ULP * strips.thickness
     F, slope, change = solver.F, solver.slope, solver.change
-    for p in range(n):
-        unknown = solver.unknowns[p]
-        F[p], _, slope[p] = contact_force(strips, covered, unknown.strip, unknown.w)
+    if len(strips.rows) == 1:
+        for p in range(n):
+            unknown = solver.unknowns[p]
+            F[p], _, _, slope[p], _, _ = contact_force(
+                strips, covered, unknown.strip, unknown.w, 0.0
+            )
+    else:
+        forces_of_leaning(strips, covered, solver, F, n)
     for p in range(n):
         unknown = solver.unknowns[p]
         moved, terms, stiff = row_sums(solver.C, p, F, slope, n)
@@ -323,12 +409,15 @@ def misplaced(strips, covered, solver, n):
 
 
 @compiled
-def eliminate_on_places(solver, n):
-    """Eliminate 1 + C F'."""
-    A = solver.matrix
+def eliminate_on_places(strips, solver, n):
+    """Eliminate 1 + C F'; where the tip leans 1 + C'' D."""
+    A, C = solver.matrix, solver.C
+    if len(strips.rows) == 2:
+        turn(solver, n)
+        C = A
     for p in range(n):
         for q in range(n):
-            A[p, q] = solver.C[p, q] * solver.slope[q]
+            A[p, q] = C[p, q] * solver.slope[q]
         A[p, p] += 1.0
     eliminate(A, n)
 
@@ -339,26 +428,35 @@ def newton_on_strips(strips, covered, solver, n):
 
     They start from the places under the forces F. Each is (1 + C F') dw = v - C F - w.
     """
+    F, change, leans = solver.F, solver.change, len(strips.rows) == 2
     places_under_forces(solver, n)
     for number in range(FEW):
         solved = misplaced(strips, covered, solver, n) <= 0.0
         if number == 0 or not solved:  # the last step moves last digits: by the matrix before
-            eliminate_on_places(solver, n)
-        substitute(solver.matrix, solver.change, n)
-        for p in range(n):
-            solver.unknowns[p].w += solver.change[p]
+            eliminate_on_places(strips, solver, n)
+        if leans:
+            shear(change, solver.turned, 1.0, n)
+        substitute(solver.matrix, change, n)
         if solved:  # where rods are stiff their forces lose digits that the places still have
             for p in range(n):
-                solver.F[p] = max(solver.F[p] + solver.slope[p] * solver.change[p], 0.0)
+                F[p] = max(F[p] + solver.slope[p] * change[p], -np.inf if leans else 0.0)
+            if leans:
+                for p in range(ZERO, n, TWO):
+                    F[p + ONE] += solver.turned[p] * solver.slope[p] * change[p]
+        if leans:
+            shear(change, solver.turned, -1.0, n)
+        for p in range(n):
+            solver.unknowns[p].w += change[p]
+        if solved:
             return True
     return False
 
 
 @compiled
 def solve(strips, covered, solver, count):
-    """Forces F and places w of the first ``count`` active strips; False where not found."""
-    n = np.uint64(count)
-    if count == 1:
+    """Forces F and places w of the ``count`` active strips; False where not found."""
+    n = np.uint64(count * len(strips.rows))
+    if n == 1:
         at, c = solver.unknowns[0], solver.C[0, 0]
         at.w, F, _ = solve_strip(strips, covered, at.strip, at.v, c, at.top, solver.F[0])
         solver.F[0] = F
@@ -367,7 +465,7 @@ def solve(strips, covered, solver, count):
         return True
     if newton_from(strips, covered, solver, n):
         return True
-    share = diagonal_shift_keeping_C_positive(solver, n)
+    share = 0.0 if len(strips.rows) == 2 else diagonal_shift_keeping_C_positive(solver, n)
     for _ in range(DESCENTS):
         descend(strips, covered, solver, n, share)
         copy(solver.F, solver.start, n)

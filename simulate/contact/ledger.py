@@ -88,13 +88,14 @@ def book_released(strips, covered, i, j, passed, a, energies):
         ahead -= nu
     released = gained = 0.0
     for k in range(strip.low, strip.high):  # no other stores energy
-        change = covered_part(strips, k - ahead, passed) - rods[i, k].part
+        change = covered_part(strips, i, k - ahead, passed) - rods[i, k].part
         released += max(-change, 0.0) * rods[i, k].stored
         gained += max(change, 0.0) * rods[i, k].stored
     volume, fresh = strips.area[i] * strips.thickness, 0
-    # under a rounded tip, or while the casing grows, the penetration of every rod changes; where
-    # the window goes all around, the wear of its last rod is also that of its first
-    if strips.tip.half == 0.0 and a == strip.ramp and ahead >= 0 and last < nu:
+    # under a tip that is rounded or leans, or while the casing grows, the penetration of every rod
+    # changes; where the window goes all around, the wear of its last rod is also that of its first
+    level = strips.tip.half[i] == 0.0 and len(strips.rows) == 1
+    if level and a == strip.ramp and ahead >= 0 and last < nu:
         covered_end = last + 1
         while covered_end > 0 and rods[i, covered_end - 1].part == 0.0:
             covered_end -= 1

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from geometry.hats import middles
 from rom.model import Rom
-from simulate.scene import Casing
+from simulate.scene import Casing, Liner
 
 SHARES = 8  # equal parts of the chord, over which outputs are averaged
 
@@ -27,6 +27,7 @@ class Places:
     theta: NDArray[np.float64]  # (m,), rad
     width: NDArray[np.float64]  # (m,), m, axial; their sum is the axial length of the tip
     slope: NDArray[np.float64]  # (m,), dr/dz of the casing
+    footprint: NDArray[np.float64]  # (m,), m, arc that the tip rubs
 
     @property
     def secant(self) -> NDArray[np.float64]:
@@ -41,16 +42,43 @@ def volume_of(
     return 2 * np.pi * depth @ (width * radius)
 
 
-def strip_places(rom: Rom, strips: int, casing: Casing) -> Places:
-    """Places of ``strips`` equal strips; on an interface of points, one strip per point."""
+def given_footprint(liner: Liner, rom: Rom) -> float | None:
+    """`liner.footprint_m`; None where the tip rubs the arc that it covers: of two edges, always."""
+    return liner.footprint_m if rom.across == 1 else None
+
+
+def mean_footprint(liner: Liner, rom: Rom) -> float:
+    """Mean arc (m) that the tip rubs."""
+    return given_footprint(liner, rom) or float(rom.arc(middles(SHARES)).mean())
+
+
+def strip_xi(rom: Rom, strips: int) -> NDArray[np.float64]:
+    """Chord fractions at which the tip meets so many strips, or the one strip per point."""
+    return rom.xi if rom.of_points else middles(strips)
+
+
+def strip_places(rom: Rom, liner: Liner, casing: Casing) -> Places:
+    """Places of the equal strips; on an interface of points, one strip per point.
+
+    Where the tip rubs the arc that it covers, it is centred at the middle of that.
+
+    Raises
+    ------
+    rom.model.RomError
+        When the arc is not given, and the model does not know it.
+    """
+    xi, given = strip_xi(rom, liner.m), given_footprint(liner, rom)
     if rom.of_points:
-        xi, ends = rom.xi, np.concatenate([[0], (rom.xi[1:] + rom.xi[:-1]) / 2, [1]])
+        ends = np.concatenate([[0], (rom.xi[1:] + rom.xi[:-1]) / 2, [1]])
         radius, theta, _ = rom.points.T
     else:
-        xi, ends = middles(strips), np.linspace(0, 1, strips + 1)
+        ends = np.linspace(0, 1, len(xi) + 1)
         radius, theta, _ = rom.line(xi).T
-    slope = slope_at(rom, casing, xi)
-    return Places(ends, xi, radius, theta, np.diff(rom.line(ends)[:, 2]), slope)
+    footprint = rom.arc(xi) if given is None else np.full(len(xi), given)
+    if given is None:
+        theta = np.interp(xi, np.linspace(0, 1, rom.sides.shape[1]), rom.sides.mean(axis=0))
+    width, slope = np.diff(rom.line(ends)[:, 2]), slope_at(rom, casing, xi)
+    return Places(ends, xi, radius, theta, width, slope, footprint)
 
 
 def slope_at(rom: Rom, casing: Casing, xi: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -59,9 +87,14 @@ def slope_at(rom: Rom, casing: Casing, xi: NDArray[np.float64]) -> NDArray[np.fl
     return np.interp(xi, np.linspace(0, 1, len(slope)), slope)
 
 
-def closing_rows(rom: Rom, casing: Casing, xi: NDArray[np.float64]) -> NDArray[np.float64]:
-    """P (k, n): u_r - s u_z = P u at chord fractions ``xi`` (k,), s the slope of the casing."""
-    return rom.closing_rows(xi, casing.slope_along(rom.camber, rom.taper))
+def closing_rows(
+    rom: Rom, casing: Casing, xi: NDArray[np.float64], leans: bool = False
+) -> NDArray[np.float64]:
+    """P (k, n): u_r - s u_z = P u at chord fractions ``xi`` (k,), s the slope of the casing.
+
+    Of the tip's middle; where it ``leans``, of the edge ahead less that of the edge behind.
+    """
+    return rom.closing_rows(xi, casing.slope_along(rom.camber, rom.taper), leans)
 
 
 def share_weights(ends: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -20,12 +20,18 @@ nor on where the blade is. (Rods that came and went whole would excite the blade
 nu Omega.) A rod wears whole, to the deepest reach of the tip over its centre: a step stands for the
 interval of its length around the time of its rods, in which the tip goes the way of the step and
 slides along. So the errors of wear are of order two in the step, and in 1/nu.
+
+A tip that leans has the penetration w + lean (m / L) at the distance m from its middle, L the
+footprint: w the mean of its edges, lean the edge ahead less the edge behind. The lean does work on
+the moment, the sum of the rods' forces times their m / L, so a rod bears at one lever m / L all
+through a step.
 """
 
 from math import ceil, floor
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from simulate.contact.compiled import FIRST, compiled, records
 from simulate.contact.ledger import (
@@ -38,10 +44,12 @@ from simulate.contact.ledger import (
 )
 from simulate.contact.strips import (
     Strips,
+    apex_of,
     below,
     covered_middle,
     covered_part,
     covered_share,
+    leverage,
     offset,
     profile_at,
 )
@@ -81,26 +89,51 @@ class Covered(NamedTuple):
 
     rods: np.recarray  # (strips, window), ROD
     strips: np.recarray  # (strips,), STRIP
+    lever: NDArray[np.float64]  # (strips, window), of each rod's force; (strips, 0) without lean
 
 
 def nothing_covered(strips: Strips) -> Covered:
     """A tip that has met no rod yet."""
     n = len(strips.g0)
     window = strips.rods_covered + 1 + 2 * strips.partly_covered
-    return Covered(records((n, window), ROD), records(n, STRIP))
+    leans = len(strips.rows) == 2
+    return Covered(records((n, window), ROD), records(n, STRIP), np.zeros((n, leans * window)))
 
 
 @compiled
-def cover(strips, covered, eps_p, i, step, w_before, w, u_t, u_t_before, moves, energies):
+def lifted(strips, covered, i, k, w, lean):
+    """Displacement of the tip over rod ``k``, m: where it leans by the lever of the rod."""
+    if len(strips.rows) == 1:
+        return w
+    return w + lean * covered.lever[i, k]
+
+
+@compiled
+def cover(
+    strips,
+    covered,
+    eps_p,
+    i,
+    step,
+    w_before,
+    w,
+    lean_before,
+    lean,
+    u_t,
+    u_t_before,
+    moves,
+    energies,
+):
     """Find the rods of strip ``i`` under the tip and their penetration, Eq. (7), at w = 0.
 
-    The casing brings them there at ``w_before``.
+    The casing brings them there at ``w_before``, ``lean_before``.
 
     Parameters
     ----------
     eps_p : (strips, nu), plastic strains
     step : Step
     w_before, w : m, radial displacement over the strip a step before and its forecast
+    lean_before, lean : m, the same of the lean
     u_t, u_t_before : m, tangential displacement over the strip now and a step before
     moves : whether the force is that of a move from ``w_before``, or of its end alone
     energies : sums of the ledger, J
@@ -119,7 +152,10 @@ def cover(strips, covered, eps_p, i, step, w_before, w, u_t, u_t_before, moves, 
     strip.at, strip.passed, strip.ramp, strip.slid, strip.moved = j, passed, step.a, slid, half
     strip.reach = max(w_before, w) + SPARE * strips.g0[i]
     strip.low, strip.high = rods_reached(strips, strip, i, covered.rods.shape[1])
-    supplied = fill(strips, covered, eps_p, i, strip.low, strip.high, fresh, w_before, w, moves)
+    supplied = fill(
+        strips, covered, eps_p, i, strip.low, strip.high, fresh, w_before, w, lean_before, lean,
+        moves,
+    )  # fmt: skip
     energies[CASING] += supplied * strips.area[i] * strips.thickness
 
 
@@ -130,56 +166,63 @@ def rods_reached(strips, strip, i, window):
     All of a flat tip's; of another those over which its profile is less than the deepest
     penetration, anywhere on its way in the step.
     """
-    tip, pitch = strips.tip, strips.pitch[i]
-    if tip.half == 0.0 or window > strips.d.size:
-        return 0, window
+    tip, pitch, inset = strips.tip, strips.pitch[i], strips.inset[i]
+    half = tip.half[i]
+    if half == 0.0 or len(strips.rows) == 2 or window > strips.d.size:
+        return inset, window - inset
     casing = strip.ramp * (strips.d_window[strip.at] + strips.waves.most)
     depth = casing - strips.g0[i] + strip.reach
-    start, end = below(tip, depth)
+    start, end = below(tip, i, depth)
     aside = 0.5 + abs(strip.slid) / 2 + 2 * abs(strip.moved) / pitch  # rods
     middle = -offset(strips, FIRST, strip.passed)
-    low, high = 0, window
-    if start > -tip.half:
+    low, high = inset, window - inset
+    if start > -half:
         low = min(max(floor(start / pitch + middle - aside), 0), window)
-    if end < tip.half:
+    if end < half:
         high = max(min(ceil(end / pitch + middle + aside) + 1, window), low)
     return low, high
 
 
 @compiled
-def widen(strips, covered, eps_p, i, w_before, w):
+def widen(strips, covered, eps_p, i, w_before, w, lean_before, lean):
     """Take all rods of the window as reached: where forces lift the tip beyond ``reach``."""
     strip, window = covered.strips[i], covered.rods.shape[1]
-    fill(strips, covered, eps_p, i, FIRST, strip.low, FIRST, w_before, w, True)
-    fill(strips, covered, eps_p, i, strip.high, window, FIRST, w_before, w, True)
+    for low, high in ((FIRST, strip.low), (strip.high, window)):
+        fill(strips, covered, eps_p, i, low, high, FIRST, w_before, w, lean_before, lean, True)
     strip.low, strip.high, strip.reach = 0, window, np.inf
 
 
 @compiled
-def fill(strips, covered, eps_p, i, low, high, fresh, w_before, w, moves):
+def fill(strips, covered, eps_p, i, low, high, fresh, w_before, w, lean_before, lean, moves):
     """Find the rods ``low`` to ``high`` of the window; the energy that they get, J/m3.
 
     Those from ``fresh`` on the casing has moved; others as of ``cover``.
     """
-    strip, nu, profile = covered.strips[i], strips.d.size, strips.tip.half > 0.0
+    strip, nu, profile = covered.strips[i], strips.d.size, strips.tip.half[i] > 0.0
     passed, half, g0, supplied = strip.passed, strip.moved, strips.g0[i], 0.0
+    w_from, lean_from = (w_before, lean_before) if moves else (w, lean)
+    apex, per_length = apex_of(strips, i, lean), leverage(strips, i, passed) / strips.length[i]
     j = (strip.at + low) % nu
     for k in range(low, high):
         rod = covered.rods[i, k]
-        rod.part = covered_part(strips, k, passed)
+        rod.part = covered_part(strips, i, k, passed)
+        if len(strips.rows) == 2:
+            covered.lever[i, k] = per_length * covered_middle(strips, i, k, passed)
         rod.at_rest = strip.ramp * strips.d[j] - g0  # delta = -g
         rod.delta_0 = rod.delta_before = rod.at_rest
         if profile:
-            middle = strips.pitch[i] * covered_middle(strips, k, passed)
-            rod.delta_0 -= profile_at(strips.tip, middle - 2 * (1 - strips.placed) * half)[0]
-            rod.delta_before -= profile_at(strips.tip, middle + 2 * strips.placed * half)[0]
-            rod.slope = profile_at(strips.tip, middle)[1]
+            middle = strips.pitch[i] * covered_middle(strips, i, k, passed)
+            rod.delta_0 -= profile_at(strips.tip, i, middle - 2 * (1 - strips.placed) * half)[0]
+            rod.delta_before -= profile_at(strips.tip, i, middle + 2 * strips.placed * half)[0]
+            rod.slope = profile_at(strips.tip, i, middle)[1]
         rod.eps_p = eps_p[i, j]
-        if profile and strips.pitch[i] * offset(strips, k, passed) < strips.tip.apex:
+        if strips.pitch[i] * offset(strips, k, passed) < apex:
             # the closest part of the tip has passed the rod, and has worn it before it bears
-            w_from = w_before if moves else w
-            rod.eps_p = worn_to(strips, covered, i, k, w_from, w, 0.5, rod.eps_p, 0.0)
-        supplied += bring(strips, rod, eps_p[i, j], w_before, moves, k >= fresh)
+            rod.eps_p = worn_to(
+                strips, covered, i, k, w_from, w, lean_from, lean, 0.5, rod.eps_p, 0.0
+            )
+        start = lifted(strips, covered, i, k, w_before, lean_before)
+        supplied += bring(strips, rod, eps_p[i, j], start, moves, k >= fresh)
         j = j + 1 if j + 1 < nu else 0
     return supplied
 
@@ -234,68 +277,98 @@ def mean_stress(law, rod, eps, w_end):
 
 
 @compiled
-def in_contact(covered, i, w):
-    """Whether any rod of strip ``i`` may bear in the step, at ``w`` (m) at its end."""
+def in_contact(strips, covered, i, w, lean):
+    """Whether any rod of strip ``i`` may bear in the step, at ``w``, ``lean`` (m) at its end."""
     strip = covered.strips[i]
     for k in range(np.uint64(strip.low), np.uint64(strip.high)):
         rod = covered.rods[i, k]
-        if rod.part > 0.0 and (rod.delta_0 + w > 0.0 or rod.sigma > 0.0):
+        deep = rod.delta_0 + lifted(strips, covered, i, k, w, lean)
+        if rod.part > 0.0 and (deep > 0.0 or rod.sigma > 0.0):
             return True
     return False
 
 
 @compiled
-def contact_force(strips, covered, i, w):
-    """Force of strip i's rods at ``w`` (m): radial N, tangential N, and its slope, N/m."""
-    t_N, t_T, stiffness, per_l = 0.0, 0.0, 0.0, 1 / strips.thickness
-    strip = covered.strips[i]
+def contact_force(strips, covered, i, w, lean):
+    """Force of strip i's rods at ``w``, ``lean`` (m).
+
+    Returns
+    -------
+    float, float, float, float, float, float
+        Radial N, tangential N, moment N (over the footprint, along the lean); slopes, N/m: of the
+        radial force with w, with the lean, and of the moment with the lean.
+    """
+    t_N, t_T, moment, stiffness, crossed, turning = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    strip, per_l = covered.strips[i], 1 / strips.thickness
     for k in range(np.uint64(strip.low), np.uint64(strip.high)):
         rod = covered.rods[i, k]
-        eps = (rod.delta_0 + w) * per_l
+        eps = (rod.delta_0 + lifted(strips, covered, i, k, w, lean)) * per_l
         if rod.part > 0.0 and (eps > 0.0 or rod.sigma > 0.0):
             mean, _, _, slope = mean_stress(strips.law, rod, eps, strips.w_end[i])
             t_N += rod.part * mean  # Eq. (17), but for A_i
             stiffness += rod.part * slope
             t_T += rod.part * mean * rod.slope
-    area = strips.area[i]  # A_i of Eq. (17)
-    return t_N * area, t_T * area, stiffness * area / strips.thickness
+            if len(strips.rows) == 2:
+                lever = covered.lever[i, k]
+                moment += rod.part * mean * lever
+                crossed += rod.part * slope * lever
+                turning += rod.part * slope * lever * lever
+    area, per_m = strips.area[i], strips.area[i] / strips.thickness  # A_i of Eq. (17)
+    of_slopes = stiffness * area / strips.thickness, crossed * per_m, turning * per_m
+    return t_N * area, t_T * area, moment * area, *of_slopes
 
 
 @compiled
-def deepest_reach(strips, covered, i, k, w_from, w, first, last):
+def leaning(strips, i, lean_from, lean, share, s):
+    """Displacement by the lean at ``s`` (m) from the middle at a ``share`` of the step, m."""
+    if len(strips.rows) == 1:
+        return 0.0
+    way = lean_from + share * (lean - lean_from)
+    return way * s / (strips.length[i] * strips.pitch[i])
+
+
+@compiled
+def deepest_reach(strips, covered, i, k, w_from, w, lean_from, lean, first, last):
     """Deepest penetration (m) over the centre of rod ``k``, from ``first`` to ``last`` of the step.
 
-    The tip goes from ``w_from`` to ``w`` (m) in the step, and slides by ``slid`` rods. A casing
-    that travels goes on its way, too, halfway to the place of the rod's ``at_rest``.
+    The tip goes from ``w_from``, ``lean_from`` to ``w``, ``lean`` (m) in the step, and slides by
+    ``slid`` rods. A casing that travels goes on its way, too, halfway to the place of the rod's
+    ``at_rest``.
     """
     strip, tip = covered.strips[i], strips.tip
     approach = strips.waves.approach(strips, strip.at, k)
     way, at_rest = w - w_from + approach, covered.rods[i, k].at_rest - approach / 2
-    if tip.half == 0.0:
+    if tip.half[i] == 0.0 and len(strips.rows) == 1:
         return at_rest + w_from + max(first * way, last * way)
     slid = strips.pitch[i] * strip.slid
     s = strips.pitch[i] * offset(strips, k, strip.passed) + slid / 2  # at the start
-    if tip.curvature > 0.0 and slid != 0.0:  # concave over the step: the summit, if inside
-        summit = -(way / slid + tip.tilt) / (2 * tip.curvature)
+    if tip.curvature[i] > 0.0 and slid != 0.0:  # concave over the step: the summit, if inside
+        tilt = tip.tilt - leaning(strips, i, lean_from, lean, 0.5, 1.0)
+        summit = -(way / slid + tilt) / (2 * tip.curvature[i])
         first = last = min(max((s - summit) / slid, first), last)
-    deep_first = w_from + first * way - profile_at(tip, s - first * slid)[0]
-    deep_last = w_from + last * way - profile_at(tip, s - last * slid)[0]
+    deep_first = w_from + first * way - profile_at(tip, i, s - first * slid)[0]
+    deep_first += leaning(strips, i, lean_from, lean, first, s - first * slid)
+    deep_last = w_from + last * way - profile_at(tip, i, s - last * slid)[0]
+    deep_last += leaning(strips, i, lean_from, lean, last, s - last * slid)
     return at_rest + max(deep_first, deep_last)
 
 
 @compiled
-def worn_to(strips, covered, i, k, w_from, w, share, eps_p, yielded):
+def worn_to(strips, covered, i, k, w_from, w, lean_from, lean, share, eps_p, yielded):
     """Plastic strain, from ``eps_p``, to which rod ``k`` wears in the first ``share`` of a step.
 
     ``yielded``: that to which a flat tip over it brings it at the start of the step, or at its end.
     """
     law, strip = strips.law, covered.strips[i]
-    first, last = covered_share(strips, k, strip.passed, strip.slid)
+    first, last = covered_share(strips, i, k, strip.passed, strip.slid)
     approach = strips.waves.approach(strips, strip.at, k)
-    if strips.tip.half == 0.0 and last - first == 1.0 and approach == 0.0:
+    level = strips.tip.half[i] == 0.0 and len(strips.rows) == 1
+    if level and last - first == 1.0 and approach == 0.0:
         return yielded
     if min(last, share) > first:
-        eps = deepest_reach(strips, covered, i, k, w_from, w, first, min(last, share))
+        eps = deepest_reach(
+            strips, covered, i, k, w_from, w, lean_from, lean, first, min(last, share)
+        )
         eps *= 1 / strips.thickness
         if eps > eps_p:
             return law.stress(law.parameters, eps, eps_p)[1]
@@ -303,33 +376,37 @@ def worn_to(strips, covered, i, k, w_from, w, share, eps_p, yielded):
 
 
 @compiled
-def press(strips, covered, eps_p, i, w, w_from, energies):
-    """Press the tip to ``w`` (m) into the rods of strip ``i``: Eq. (17), wear by Eq. (16).
+def press(strips, covered, eps_p, i, w, w_from, lean, lean_from, energies):
+    """Press the tip to ``w``, ``lean`` (m) into strip i's rods: Eq. (17), wear by Eq. (16).
 
-    The tip comes from ``w_from`` (m), for wear.
+    The tip comes from ``w_from``, ``lean_from`` (m), for wear.
 
     Returns
     -------
-    float, float, float
-        Radial and tangential force, N; deepest penetration of a rod that bears, m.
+    float, float, float, float
+        Radial and tangential force, N, moment, N, as of ``contact_force``; deepest penetration of a
+        rod that bears, m.
     """
     strip, law, nu = covered.strips[i], strips.law, strips.d.size
     j, volume = (strip.at + strip.low) % nu, strips.area[i] * strips.thickness
     per_l = 1 / strips.thickness
-    t_N = t_T = deepest = stored = worn = supplied = 0.0
+    t_N = t_T = moment = deepest = stored = worn = supplied = 0.0
     first = eps_p[i, j]  # of a footprint all around, which ends on the rod on which it begins
     for k in range(strip.low, strip.high):
         rod, before = covered.rods[i, k], eps_p[i, j] if k < nu else first
-        eps, part, after, rod.stored = (rod.delta_0 + w) * per_l, rod.part, rod.eps_p, 0.0
+        deep = rod.delta_0 + lifted(strips, covered, i, k, w, lean)
+        eps, part, after, rod.stored = deep * per_l, rod.part, rod.eps_p, 0.0
         if part > 0.0 and (eps > 0.0 or rod.sigma > 0.0):
             mean, sigma, after, _ = mean_stress(law, rod, eps, strips.w_end[i])
             t_N += part * mean  # Eq. (17), but for A_i
             t_T += part * mean * rod.slope
+            if len(strips.rows) == 2:
+                moment += part * mean * covered.lever[i, k]
             rod.stored = elastic_energy(sigma, eps, after)
             if sigma > 0.0:
-                deepest = max(deepest, rod.delta_0 + w)
+                deepest = max(deepest, deep)
         yielded = max(after, rod.after)
-        kept = worn_to(strips, covered, i, k, w_from, w, 1.0, eps_p[i, j], yielded)
+        kept = worn_to(strips, covered, i, k, w_from, w, lean_from, lean, 1.0, eps_p[i, j], yielded)
         wear = plastic_work(law, eps_p[i, j], kept)
         # a rod keeps its yield under its centre: from there it bears next
         if kept != after or k == nu:
@@ -344,4 +421,5 @@ def press(strips, covered, eps_p, i, w, w_from, energies):
     strip.stored = stored
     energies[PLASTIC] += worn * volume
     energies[CASING] += supplied * volume
-    return t_N * strips.area[i], t_T * strips.area[i], deepest  # A_i of Eq. (17)
+    area = strips.area[i]  # A_i of Eq. (17)
+    return t_N * area, t_T * area, moment * area, deepest

@@ -94,7 +94,7 @@ def lower(strips, a_first, a_last, first, last, motion, now):
     The cosine of the middle, and as much more as it may change to the ends of the window and of the
     time.
     """
-    waves, per_rod, first_t = strips.waves, 2 * np.pi / strips.d.size, motion.u.shape[1] // 2
+    waves, per_rod, first_t = strips.waves, 2 * np.pi / strips.d.size, strips.first_t
     half = (strips.rods_covered + 1) / 2 + strips.partly_covered + SPARE_RODS  # rods
     number = (first + last) / 2
     for i in range(strips.g0.size):
@@ -116,7 +116,7 @@ def lower(strips, a_first, a_last, first, last, motion, now):
 def follow(strips, state, step):
     """Set the distortion of the rods near the tip in a step, and its way in the step."""
     waves, u, nu = strips.waves, state.motion.u, strips.d.size
-    first_t, window = u.shape[1] // 2, state.covered.rods.shape[1] + 2 * SPARE_RODS
+    first_t, window = strips.first_t, state.covered.rods.shape[1] + 2 * SPARE_RODS
     for h in range(waves.order.size):
         for row, time in ((MIDDLE, step.number - 1 + strips.placed), (END, float(step.number))):
             phase = waves.at[h] + waves.turn[h] * time

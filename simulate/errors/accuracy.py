@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 from geometry.project import ProvenanceError, anew, read_json
 from rom.coarser import coarser
 from rom.model import Rom
+from simulate.contact.places import mean_footprint
 from simulate.errors.companion import (
     Coarser,
     Fineness,
@@ -324,7 +325,7 @@ def _converging(before: dict[float, Run], after: dict[float, Run], growth: float
 
 def _around(scene: Scene, rom: Rom) -> float:
     """Footprints in a revolution."""
-    return float(2 * np.pi * rom.camber[:, 0].max() / scene.liner.footprint_m)
+    return float(2 * np.pi * rom.camber[:, 0].max() / mean_footprint(scene.liner, rom))
 
 
 def _first(scene: Scene, rom: Rom, speeds: NDArray[np.float64]) -> Fineness:
@@ -354,7 +355,8 @@ def _first(scene: Scene, rom: Rom, speeds: NDArray[np.float64]) -> Fineness:
 def _with_rods(scene: Scene, rom: Rom, steps: int, strips: int) -> Fineness:
     """As many rods as steps, or more where a tilted tip's edge needs them."""
     gap = least_gap(scene.gaps, rom, scene.liner.m, scene.speeds.omega(rom.f1))
-    fall = edge_slope(scene.contact.profile, scene.liner.footprint_m) * scene.liner.footprint_m
+    footprint = mean_footprint(scene.liner, rom)
+    fall = edge_slope(scene.contact.profile, footprint) * footprint
     edge = fall / (EDGE_FALL * gap) if gap > 0 else 0.0
     rods = max(edge * _around(scene, rom), steps - 1)
     return Fineness(steps, min(ceil(rods), MOST_RODS), strips)

@@ -55,7 +55,7 @@ def check_resolution(scene: Scene, setup: Setup) -> None:
     if not strips.touches or deepest <= 0:  # a blade at rest stays so
         return
     period = _period(setup)
-    window = shortest_window(scene.liner.footprint_m, setup, deepest)
+    window = shortest_window(setup, deepest)
     times, what = max(
         (
             (HALVED if scene.halving else PERIOD) / period,
@@ -95,7 +95,7 @@ def _period(setup: Setup) -> float:
     return 2 * np.pi / (setup.omega[0] * setup.h)
 
 
-def shortest_window(footprint: float, setup: Setup, deepest: float) -> float:
+def shortest_window(setup: Setup, deepest: float) -> float:
     """Steps of the shortest window of penetration into the casing, of ``deepest`` (m), or inf.
 
     Of the strip with the smallest gap, from the first rod under its footprint to the last; a casing
@@ -103,7 +103,8 @@ def shortest_window(footprint: float, setup: Setup, deepest: float) -> float:
     """
     strips, nu = setup.strips, setup.strips.d.size
     lengths = _windows((distortion_passed(strips) - strips.g0.min()) / deepest)
-    flat = strips.tip.half == 0.0  # else it bears with a part of its footprint
+    flat = not strips.tip.half.any()  # else it bears with a part of its footprint
+    footprint = setup.places.footprint[strips.g0.argmin()]
     rods = rods_in_footprint(footprint, setup.places.radius.mean(), nu)
     return float((lengths.min(initial=np.inf) + flat * rods) / strips.advance)
 

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from simulate.contact.compiled import compiled, compiled_sums
 from simulate.contact.ledger import WORK
 from simulate.contact.rods import cover, press
+from simulate.contact.strips import closest, lean_at
 from simulate.marching.modal import Motion, Scheme, scheme_arrays
 
 
@@ -101,20 +102,30 @@ def find_force(scheme, strips, state, step):
     """
     motion, covered, eps_p, energies = state.motion, state.covered, state.eps_p, state.energies
     u, moved, force, C = motion.u, motion.moved, motion.force, scheme.C
-    first_t, u_t, u_t_before = u.shape[1] // 2, 0.0, 0.0
+    first_t, first_lean, leans = strips.first_t, strips.first_lean, len(strips.rows) == 2
+    u_t = u_t_before = lean = lean_before = 0.0
     deepest, where, touched = 0.0, 0, False
     force[:] = 0.0
     for i in range(strips.g0.size):
         w, w_before = u[step.now, i], u[step.last, i] + moved[i]
-        if max(w, w_before) <= motion.free[i] and covered.strips[i].stored == 0.0:
+        if leans:
+            lean = lean_at(strips, u, step.now, i)
+            lean_before = lean_at(strips, u, step.last, i) + moved[first_lean + i]
+        nearest = max(closest(strips, w, lean), closest(strips, w_before, lean_before))
+        if nearest <= motion.free[i] and covered.strips[i].stored == 0.0:
             continue
         if strips.tangential:
             u_t, u_t_before = (
                 u[step.now, first_t + i],
                 u[step.last, first_t + i] + moved[first_t + i],
             )
-        cover(strips, covered, eps_p, i, step, w_before, w, u_t, u_t_before, False, energies)
-        force[i], t_T, depth = press(strips, covered, eps_p, i, w, w, energies)
+        cover(
+            strips, covered, eps_p, i, step, w_before, w, lean_before, lean, u_t, u_t_before, False,
+            energies,
+        )  # fmt: skip
+        force[i], t_T, moment, depth = press(strips, covered, eps_p, i, w, w, lean, lean, energies)
+        if leans:
+            force[first_lean + i] = moment
         if strips.tangential:
             force[first_t + i] = t_T
         touched |= force[i] > 0.0

@@ -11,7 +11,7 @@ from geometry.project import Fault
 from rom.model import DIRECTIONS, Rom
 from simulate.contact.gaps import given_gaps, growth_fault
 from simulate.contact.law_check import fault
-from simulate.contact.places import strip_places
+from simulate.contact.places import mean_footprint, strip_places
 from simulate.contact.strips import rods_in_footprint
 from simulate.marching.setup import SceneError, edge_slope, least_gap
 from simulate.scene import Casing, Contact, Gaps, Liner, Profile, Scene, Speeds
@@ -31,7 +31,7 @@ def check_scene(scene: Scene, rom: Rom) -> None:
     """
     require_sweep(scene)
     liner, casing, directions = scene.liner, scene.casing, scene.directions
-    places = strip_places(rom, liner.m, casing)
+    places = strip_places(rom, liner, casing)
     speeds = scene.speeds.omega(rom.f1)
     too_fast = [*_speeds(scene.speeds, rom, scene.blade)]
     allowed = speeds[speeds <= rom.Omega_m * (1 + ROUND_OFF)]  # others are a fault of their own
@@ -41,7 +41,7 @@ def check_scene(scene: Scene, rom: Rom) -> None:
         *_model(scene.blade, scene.contact, [*scene.record.grids], directions, rom),
         *too_fast,
         *_slope(casing, rom, places.slope),
-        *_liner(liner, rom.camber[:, 0]),
+        *_liner(liner, rom.camber[:, 0], float(places.footprint.min())),
         *_strips(liner, rom),
         *_gaps(scene.gaps, rom),
         *outgrown,
@@ -148,9 +148,9 @@ def _remedy_of_speed(speeds: Speeds, rom: Rom, blade: str, highest: float) -> st
     )
 
 
-def _liner(liner: Liner, radius: NDArray[np.float64]) -> Iterator[Fault]:
+def _liner(liner: Liner, radius: NDArray[np.float64], footprint: float) -> Iterator[Fault]:
     """A law from outside this project, and rods and footprint that do not go with the radius."""
-    law, footprint, nu = liner.law, liner.footprint_m, liner.nu
+    law, nu = liner.law, liner.nu
     if not isinstance(law, LAWS) and (message := fault(law)):  # pyright: ignore[reportArgumentType]
         yield Fault(
             f"{type(law).__name__}: {message}; see simulate/README.md, From Python", "liner.law"
@@ -180,6 +180,12 @@ def _strips(liner: Liner, rom: Rom) -> Iterator[Fault]:
     amplitudes change by 14 %, worn volumes by 21 %. One strip is the whole chord, by choice.
     """
     n = len(rom.xi)
+    if liner.rigid_key and rom.across == 2:
+        yield Fault(
+            f"a rigid casing ({liner.rigid_key}) is met by one row across the thickness: give the "
+            "blade interface: {across: 1}",
+            "liner",
+        )
     if rom.of_points and liner.m != n:
         yield Fault(
             f"the interface of the reduced model has {n} points, with a strip each; allowed {n}",
@@ -239,7 +245,8 @@ def _edge(
 ) -> Iterator[Fault]:
     """Rods that are too wide for the slope of the tip at its rubbing edge."""
     gap = least_gap(of, rom, liner.m, speeds)
-    fall = 2 * np.pi * rom.camber[:, 0].max() * edge_slope(profile, liner.footprint_m)
+    slope = edge_slope(profile, mean_footprint(liner, rom))
+    fall = 2 * np.pi * rom.camber[:, 0].max() * slope
     least = fall / gap if gap > 0 else 0.0
     if liner.nu < least:
         yield Fault(

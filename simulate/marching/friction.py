@@ -49,6 +49,7 @@ from simulate.contact.interface_force import (
     eliminate,
     newton_on_strips,
     places_under_forces,
+    solve,
     solve_strip,
     substitute,
 )
@@ -69,17 +70,19 @@ class Sliding(NamedTuple):
     """Data of a scheme for a tip that slides with friction."""
 
     mu: NDArray[np.float64]  # (strips,), t_T over the generalised force, mu / cos g
-    A: NDArray[np.float64]  # (strips, strips), m/N, Eq. (a)
+    A: NDArray[np.float64]  # (rows, rows), m/N, Eq. (a)
     soft: NDArray[np.float64]  # (strips,), m/N, 1/k
 
 
-def sliding(scheme: Scheme, mu: NDArray[np.float64], stiffness: NDArray[np.float64]) -> Scheme:
-    """``scheme``, with tangential rows, whose forces slide.
+def sliding(
+    scheme: Scheme, first_t: int, mu: NDArray[np.float64], stiffness: NDArray[np.float64]
+) -> Scheme:
+    """``scheme``, with tangential rows from ``first_t`` on, whose forces slide.
 
     ``mu`` (strips,): t_T over the generalised force; ``stiffness`` k (strips,), N/m.
     """
-    first_t, m = len(scheme.C) // 2, len(stiffness)
-    A = np.ascontiguousarray(scheme.C[:m, :m] + mu * scheme.C[:m, first_t : first_t + m])
+    m, A = len(stiffness), scheme.C.copy()
+    A[:, :m] += mu * scheme.C[:, first_t : first_t + m]
     solved_by = Sliding(mu, A, 1 / stiffness)
     return scheme._replace(find_force=find_sliding_force, forces=sliding_forces, sliding=solved_by)
 
@@ -183,7 +186,12 @@ def split(strips, covered, soft, solver, n):
 
 @compiled
 def solve_sliding(strips, covered, soft, solver, count):
-    """Forces F and places w of the first ``count`` active strips; False where not found."""
+    """Forces F and places w of the ``count`` active strips; False where not found.
+
+    Those of a tip that leans by ``solve``: the splitting asks for R_i.
+    """
+    if len(strips.rows) == 2:
+        return solve(strips, covered, solver, count)
     n = np.uint64(count)
     for number in range(ROUNDS):
         copy(solver.F, solver.start, n)
@@ -203,10 +211,10 @@ def solve_sliding(strips, covered, soft, solver, count):
 @compiled
 def sliding_forces(scheme, strips, state, count):
     """Forces F and places w of the first ``count`` active strips; False where not found."""
-    for p in range(count):
-        unknown = state.solver.unknowns[p]
+    for p in range(count):  # of the forces: a moment has no tangential part
+        unknown = state.solver.unknowns[p * len(strips.rows)]
         unknown.tau = scheme.sliding.mu[unknown.strip]
-    couple(scheme.sliding.A, state.solver, count, False)
+    couple(scheme.sliding.A, strips, state.solver, count, False)
     return solve_sliding(strips, state.covered, scheme.sliding.soft, state.solver, count)
 
 
@@ -214,7 +222,7 @@ def sliding_forces(scheme, strips, state, count):
 def book_friction(strips, state, step):
     """Work of the tangential forces on the blade, frictional heat, and the least sliding speed."""
     u, force, energies = state.motion.u, state.motion.force, state.energies
-    first_t = u.shape[1] // 2
+    first_t = strips.first_t
     for i in range(strips.g0.size):
         t_T = force[first_t + i]
         if t_T > 0.0:

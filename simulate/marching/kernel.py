@@ -15,7 +15,13 @@ from simulate.contact.compiled import (
 from simulate.contact.interface_force import Solver, new_solver
 from simulate.contact.ledger import DAMPING, ENERGIES
 from simulate.contact.rods import Covered, nothing_covered
-from simulate.contact.strips import Strips, contact_free, contact_free_displaced
+from simulate.contact.strips import (
+    Strips,
+    closest,
+    contact_free,
+    contact_free_displaced,
+    lean_at,
+)
 from simulate.marching.modal import (
     TURNS,
     Motion,
@@ -48,7 +54,7 @@ def at_start(scheme: Scheme, strips: Strips) -> State:
     return State(
         at_rest(scheme),
         nothing_covered(strips),
-        new_solver(nodes),
+        new_solver(nodes, len(strips.rows)),
         np.zeros((nodes, nu)),
         np.zeros(ENERGIES),
         np.full(1, np.inf),
@@ -86,7 +92,9 @@ def may_touch(strips, motion, a_first, a_last, number, now, last):
         strips.waves.lower(strips, a_first, a_last, number, number, motion, now)
     beyond = False
     for i in range(strips.g0.size):
-        beyond |= max(u[now, i], u[last, i]) > free[i]
+        start = closest(strips, u[last, i], lean_at(strips, u, last, i))
+        end = closest(strips, u[now, i], lean_at(strips, u, now, i))
+        beyond |= max(end, start) > free[i]
     return beyond
 
 
@@ -135,7 +143,7 @@ def contact_step(scheme, strips, state, recorded, step, lost):
         lost = scheme.correct(
             scheme, motion.x, motion.y, motion.modal, step.now, step.last, step.before
         )
-        book_forces(motion.force, recorded.weights, recorded.forces, strips.tangential)
+        book_forces(strips, motion.force, recorded.weights, recorded.forces)
         if deepest >= strips.thickness and strips.rigid_depth == np.inf:
             through = where
     return loaded, lost, through
@@ -151,14 +159,14 @@ def escaped(u, now, nodes, bound):
 
 
 @compiled_sums
-def book_forces(force, weights, forces, tangential):
+def book_forces(strips, force, weights, forces):
     """Add the ``force`` (rows,), N, of a step to the peaks and sums of each share of the chord."""
-    first_t = force.size // 2
+    first_t = strips.first_t
     for s in range(weights.shape[1]):
         normal = along = 0.0
         for i in range(weights.shape[2]):
             normal += weights[0, s, i] * force[i]
-            if tangential:
+            if strips.tangential:
                 along += weights[1, s, i] * force[first_t + i]
         forces[0, s] = max(forces[0, s], normal)
         forces[1, s] += normal

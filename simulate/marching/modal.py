@@ -19,7 +19,8 @@ class Scheme(NamedTuple):
     """Coefficients of a run as the kernel reads them.
 
     Modes and interface rows are padded with zeros to multiples of LANES: vectors without a rest.
-    Rows are the radial displacements over the strips, then, where modelled, the tangential ones.
+    Rows are the radial displacements over the strips, then, where modelled, the tangential ones,
+    then the leans.
     """
 
     a: NDArray[np.float64]  # (n,), free motion
@@ -81,9 +82,13 @@ def at_rest(scheme: Scheme) -> Motion:
     return Motion(x, y, u, np.zeros(rows), np.zeros(rows), _zeros((n,)), np.zeros(rows))
 
 
-def rows_of(Phi_b: NDArray[np.float64], Phi_t: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Interface rows of the modes: radial, padded to LANES, then tangential where modelled."""
-    return np.vstack([padded(Phi_b), Phi_t]) if len(Phi_t) else Phi_b
+def rows_of(*rows: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Interface rows of the modes: radial, tangential, lean; those that are modelled.
+
+    All but the last are padded to LANES.
+    """
+    *others, last = (of for of in rows if len(of))
+    return np.concatenate([*map(padded, others), last]) if others else last
 
 
 def padded(rows: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -25,7 +25,7 @@ from simulate.contact.compiled import FIRST, compiled, compiled_sums
 from simulate.contact.interface_force import ACTIVE, APART, DETECTED, solve
 from simulate.contact.ledger import CASING, WORK
 from simulate.contact.rods import contact_force, cover, in_contact, press, widen
-from simulate.contact.strips import offset, profile_at
+from simulate.contact.strips import closest, lean_at, offset, profile_at
 from simulate.marching.modal import Motion, Scheme, scheme_arrays
 
 STIFF = (
@@ -174,7 +174,7 @@ def correct(scheme, x, y, modal, now, last, before):
 def casing_at(strips, covered, i, a, k, s):
     """Penetration (m) at w = 0 of the tip at ``s`` (m) above rod ``k`` of the window, unworn."""
     d = strips.d_end[(covered.strips[i].at + k) % strips.d.size]
-    return a * d - strips.g0[i] - profile_at(strips.tip, s)[0]
+    return a * d - strips.g0[i] - profile_at(strips.tip, i, s)[0]
 
 
 @compiled
@@ -193,7 +193,7 @@ def casing_under(strips, covered, i, a):
     The highest rigid surface under the footprint, linear between rods at its ends: a surface that
     is constant over each rod would jump within a step, and impact the harder the shorter the step.
     """
-    strip, half, end = covered.strips[i], strips.length / 2, strips.tip.half
+    strip, half, end = covered.strips[i], strips.length[i] / 2, strips.tip.half[i]
     centre = (1 - strips.placed) * strip.slid - offset(strips, FIRST, strip.passed)
     line = casing_between(strips, covered, i, a, centre - half, -end)
     line = max(line, casing_between(strips, covered, i, a, centre + half, end))
@@ -206,12 +206,17 @@ def casing_under(strips, covered, i, a):
 @compiled
 def detect(strips, state, step, i):
     """Find the rods of strip ``i`` under the tip."""
-    u, covered, first_t = state.motion.u, state.covered, state.motion.u.shape[1] // 2
+    u, covered, first_t = state.motion.u, state.covered, strips.first_t
     u_t = u_t_before = 0.0
     if strips.tangential:
         u_t, u_t_before = u[step.now, first_t + i], u[step.last, first_t + i]
     w_before, w = u[step.last, i], u[step.now, i]
-    cover(strips, covered, state.eps_p, i, step, w_before, w, u_t, u_t_before, True, state.energies)
+    lean_before, lean = lean_at(strips, u, step.last, i), lean_at(strips, u, step.now, i)
+    eps_p, energies = state.eps_p, state.energies
+    cover(
+        strips, covered, eps_p, i, step, w_before, w, lean_before, lean, u_t, u_t_before, True,
+        energies,
+    )  # fmt: skip
     state.solver.strips[i].state = DETECTED
     if strips.rigid_depth < np.inf:
         state.solver.strips[i].casing = casing_under(strips, covered, i, step.a_end)
@@ -225,12 +230,18 @@ def activate(strips, state, step, count):
     Returns how many are active then.
     """
     motion, solver, covered = state.motion, state.solver, state.covered
+    rows = len(strips.rows)
     for i in range(strips.g0.size):
         forecast, at_strip = motion.u[step.now, i], solver.strips[i]
-        w = forecast - motion.moved[i]
-        near = w > motion.free[i] or (
+        w, lean_before = forecast - motion.moved[i], lean_at(strips, motion.u, step.last, i)
+        forecast_lean = lean_at(strips, motion.u, step.now, i)
+        lean = forecast_lean - motion.moved[strips.first_lean + i] if rows == 2 else 0.0
+        near = closest(strips, w, lean) > motion.free[i] or (
             at_strip.state == APART
-            and (motion.u[step.last, i] > motion.free[i] or covered.strips[i].stored > 0.0)
+            and (
+                closest(strips, motion.u[step.last, i], lean_before) > motion.free[i]
+                or covered.strips[i].stored > 0.0
+            )
         )
         if at_strip.state == ACTIVE or not near:
             continue
@@ -238,13 +249,18 @@ def activate(strips, state, step, count):
             detect(strips, state, step, i)
         top, t_N, t_T = strips.rigid_depth - at_strip.casing, 1.0, 0.0
         if strips.tangential:
-            t_N, t_T, _ = contact_force(strips, covered, np.uint64(i), w)
-        if w > top or (t_N != 0.0 and in_contact(covered, i, w)):
+            t_N, t_T = contact_force(strips, covered, np.uint64(i), w, lean)[:2]
+        if w > top or (t_N != 0.0 and in_contact(strips, covered, i, w, lean)):
             at_strip.state = ACTIVE
-            unknown = solver.unknowns[count]
-            unknown.strip, unknown.v, unknown.top = i, forecast, top
+            unknown = solver.unknowns[rows * count]
+            unknown.strip, unknown.row, unknown.v, unknown.top = i, i, forecast, top
             unknown.tau = t_T / t_N if strips.tangential and t_N > 0.0 else 0.0
-            solver.F[count] = at_strip.F
+            solver.F[rows * count] = at_strip.F
+            if rows == 2:
+                of_lean = solver.unknowns[rows * count + 1]
+                of_lean.strip, of_lean.row, of_lean.tau = i, strips.first_lean + i, 0.0
+                of_lean.v = forecast_lean
+                solver.F[rows * count + 1] = at_strip.moment
             count += 1
     return count
 
@@ -253,45 +269,50 @@ def activate(strips, state, step, count):
 def widen_reached(strips, state, step, count):
     """Widen the reach of strips that forces lift beyond it; whether there are any."""
     u, covered, solver, wider = state.motion.u, state.covered, state.solver, False
+    if len(strips.rows) == 2:  # all rods are
+        return wider
     for p in range(count):
         unknown = solver.unknowns[p]
         if unknown.w > covered.strips[unknown.strip].reach:
             i, wider = np.int64(unknown.strip), True
-            widen(strips, covered, state.eps_p, i, u[step.last, i], u[step.now, i])
+            widen(strips, covered, state.eps_p, i, u[step.last, i], u[step.now, i], 0.0, 0.0)
     for i in range(strips.g0.size):
         w = u[step.now, i] - state.motion.moved[i]
         if solver.strips[i].state == DETECTED and w > covered.strips[i].reach:
-            widen(strips, covered, state.eps_p, i, u[step.last, i], u[step.now, i])
+            widen(strips, covered, state.eps_p, i, u[step.last, i], u[step.now, i], 0.0, 0.0)
     return wider
 
 
 @compiled
-def couple(C, solver, count, tangential):
+def couple(C, strips, solver, count, tangential):
     """Compliance between the active strips, along their normals."""
-    first_t = np.uint64(C.shape[0] // 2)
-    for p in range(count):
-        i, tau_i = solver.unknowns[p].strip, solver.unknowns[p].tau
-        for q in range(count):
-            j, tau_j = solver.unknowns[q].strip, solver.unknowns[q].tau
+    first_t, n = np.uint64(strips.first_t), count * len(strips.rows)
+    for p in range(n):
+        i, tau_i = solver.unknowns[p].row, solver.unknowns[p].tau
+        along_i = first_t + solver.unknowns[p].strip
+        for q in range(n):
+            j, tau_j = solver.unknowns[q].row, solver.unknowns[q].tau
             c = C[i, j]
             if tangential:
-                c += tau_j * C[i, first_t + j] + tau_i * C[first_t + i, j]
-                c += tau_i * tau_j * C[first_t + i, first_t + j]
+                along_j = first_t + solver.unknowns[q].strip
+                c += tau_j * C[i, along_j] + tau_i * C[along_i, j]
+                c += tau_i * tau_j * C[along_i, along_j]
             solver.C[p, q] = c
 
 
 @compiled
-def displace(C, solver, count, tangential, motion):
+def displace(C, strips, solver, count, motion):
     """Forces of the active strips on their rows, and the displacement of all rows by them."""
-    force, moved, first_t = motion.force, motion.moved, np.uint64(C.shape[0] // 2)
+    force, moved, first_t = motion.force, motion.moved, np.uint64(strips.first_t)
     moved[:] = 0.0
-    for p in range(count):
-        i, F = solver.unknowns[p].strip, solver.F[p]
+    for p in range(count * len(strips.rows)):
+        unknown, F = solver.unknowns[p], solver.F[p]
+        i = unknown.row
         force[i] = F
         for row in range(moved.size):
             moved[row] += C[i, row] * F
-        if tangential:
-            t_T = solver.unknowns[p].tau * F
+        if strips.tangential and i == unknown.strip:
+            t_T = unknown.tau * F
             force[first_t + i] = t_T
             for row in range(moved.size):
                 moved[row] += C[first_t + i, row] * t_T
@@ -310,14 +331,18 @@ def press_detected(strips, state, step, count):
     """
     u, solver, rigid = state.motion.u, state.solver, strips.rigid_depth < np.inf
     covered, eps_p, energies = state.covered, state.eps_p, state.energies
-    deepest, where, touched = 0.0, 0, False
+    deepest, where, touched, rows = 0.0, 0, False, len(strips.rows)
     for p in range(count):
-        unknown = solver.unknowns[p]
+        unknown = solver.unknowns[rows * p]
         i, w_before = np.int64(unknown.strip), u[step.last, unknown.strip]
-        borne, _, depth = press(strips, covered, eps_p, i, unknown.w, w_before, energies)
-        touched |= solver.F[p] > 0.0
+        lean = solver.unknowns[rows * p + 1].w if rows == 2 else 0.0
+        lean_before = lean_at(strips, u, step.last, i)
+        borne, _, _, depth = press(
+            strips, covered, eps_p, i, unknown.w, w_before, lean, lean_before, energies
+        )
+        touched |= solver.F[rows * p] > 0.0
         if rigid:  # push of the casing itself, by the way that it came
-            reaction, way = max(solver.F[p] - borne, 0.0), w_before - unknown.top
+            reaction, way = max(solver.F[rows * p] - borne, 0.0), w_before - unknown.top
             # it may also do negative work on a strip that it held a step before, not on another
             if way > 0.0 or solver.strips[i].reaction > 0.0:
                 energies[CASING] += reaction * way
@@ -326,17 +351,21 @@ def press_detected(strips, state, step, count):
             deepest, where = depth, np.int64(i)
     for i in range(strips.g0.size):
         if solver.strips[i].state == DETECTED:
-            press(strips, covered, eps_p, i, u[step.now, i], u[step.last, i], energies)
+            lean, lean_before = lean_at(strips, u, step.now, i), lean_at(strips, u, step.last, i)
+            w, w_before = u[step.now, i], u[step.last, i]
+            press(strips, covered, eps_p, i, w, w_before, lean, lean_before, energies)
         if solver.strips[i].state != ACTIVE:
             solver.strips[i].reaction = 0.0
         solver.strips[i].F, solver.strips[i].state = state.motion.force[i], APART
+        if rows == 2:
+            solver.strips[i].moment = state.motion.force[strips.first_lean + i]
     return touched, deepest, where
 
 
 @compiled
 def held_forces(scheme, strips, state, count):
     """Forces F and places w of the first ``count`` active strips; False where not found."""
-    couple(scheme.C, state.solver, count, strips.tangential)
+    couple(scheme.C, strips, state.solver, count, strips.tangential)
     return solve(strips, state.covered, state.solver, count)
 
 
@@ -361,7 +390,7 @@ def find_force(scheme, strips, state, step):
         count = active
         if not scheme.forces(scheme, strips, state, count):
             solver.unsolved[0] += 1
-        displace(scheme.C, solver, count, strips.tangential, motion)
+        displace(scheme.C, strips, solver, count, motion)
         wider = widen_reached(strips, state, step, count)
     for row in range(u.shape[1]):
         u[step.now, row] -= C_F[row]

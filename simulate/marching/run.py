@@ -92,11 +92,12 @@ def _start(
     """Room for the outputs, the kernel, and its arguments: a blade at rest over an unworn liner."""
     strips, zeta = setup.strips, scene.damping_ratio
     rounds, until = scene.rounds, scene.until
-    rows = rows_of(setup.Phi_b, setup.Phi_t)
+    rows = rows_of(setup.Phi_b, setup.Phi_t, setup.Phi_lean)
     scheme = SCHEMES[scene.stepping.scheme].coefficients(setup.omega, rows, zeta, setup.h)
     if (mu := scene.contact.friction) is not None:
         along = mu * setup.places.secant
-        scheme = sliding(scheme, along, strip_stiffness(scene.liner, setup.places))
+        stiffness = strip_stiffness(scene.liner, setup.places)
+        scheme = sliding(scheme, strips.first_t, along, stiffness)
     state = at_start(scheme, strips)
     outputs, ramp = np.vstack([setup.Phi_out, setup.Phi_timing]), ramp_of(scene.casing)
     kept = _room(scene.record, rounds, len(outputs), state.motion.x.shape[1])

@@ -13,14 +13,20 @@ from geometry.project import UserError, known
 from geometry.tip import EDGES
 from rom.model import Rom
 from rom.polynomial import evaluate
-from simulate.contact.gaps import gaps_at, given_gaps, growth_fault
+from simulate.contact.gaps import gaps_at, given_gaps, growth_fault, lean_of_gaps
 from simulate.contact.law_check import compile_fault
-from simulate.contact.places import Places, closing_rows, strip_places
+from simulate.contact.places import (
+    Places,
+    closing_rows,
+    given_footprint,
+    strip_places,
+    strip_xi,
+)
 from simulate.contact.rod_law import RodLaw, rod_law
-from simulate.contact.strips import FLAT, Strips, Tip, largest_over_window, rods_in_footprint
+from simulate.contact.strips import Strips, Tip, largest_over_window, rods_in_footprint
 from simulate.contact.travelling import STANDING, waves
 from simulate.marching.friction import Modes, steps_with_one_solution
-from simulate.marching.modal import padded, rows_of
+from simulate.marching.modal import LANES, rows_of
 from simulate.marching.piecewise_exact import gain, share_of_end
 from simulate.marching.stability import step_limit
 from simulate.scene import LEADING, Casing, Contact, Gaps, Liner, Profile, Scene
@@ -30,6 +36,7 @@ from simulate.scene.laws import LAWS
 
 LARGEST_DISPLACEMENT = 0.1  # of the span: beyond this, linear elasticity no longer applies
 LEAST_SCALED = 10  # times the first frequency: modes below keep their mass
+INERTIA = 1 / 12  # of a footprint: the moment under a lean of 1, over the force under a w of 1
 MARGIN = 2  # rods on either side of the window, where the casing is met at the end of a step
 MAX_STEPS = 10**9  # per revolution, minutes of computing
 
@@ -50,6 +57,7 @@ class Setup:
     Phi: NDArray[np.float64]  # (n, n), their modes
     Phi_b: NDArray[np.float64]  # (m, n), their u_r - s u_z over the strips, P Phi
     Phi_t: NDArray[np.float64]  # (m, n), the tangential ones; (0, n) for radial contact
+    Phi_lean: NDArray[np.float64]  # (m, n), of the edge ahead less the edge behind; (0, n): of one
     Phi_out: NDArray[np.float64]  # (edges + places, n), u_r - s u_z at the outputs
     edges: tuple[float, ...]  # xi of the first of them: 1/16; where the casing tapers 15/16 too
     Phi_timing: NDArray[np.float64]  # (2, n), u_t at both edges there; else (0, n)
@@ -61,7 +69,7 @@ class Setup:
 
 def least_gap(of: Gaps, rom: Rom, strips: int, speeds: Iterable[float]) -> float:
     """Smallest gap at the places of so many strips, m, over the ``speeds``, rad/s."""
-    xi, at = strip_places(rom, strips, of.casing).xi, speeds if of.vary else [0.0]
+    xi, at = strip_xi(rom, strips), speeds if of.vary else [0.0]
     return float(min(gaps_at(of, rom, xi, Omega).min() for Omega in at))
 
 
@@ -79,19 +87,24 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
     """
     integrator, contact, zeta = scene.stepping, scene.contact, scene.damping_ratio
     omega, Phi = _marched_modes(integrator.mass_scaling_hz, *rom.modes(Omega))
-    places = strip_places(rom, scene.liner.m, scene.casing)
+    places, leans = strip_places(rom, scene.liner, scene.casing), rom.across == 2
     Phi_b = closing_rows(rom, scene.casing, places.xi) @ Phi
     Phi_t = rom.rows(places.xi, "t") @ Phi if contact.along else Phi[:0]
-    rows = rows_of(Phi_b, Phi_t if contact.tangential else Phi[:0])  # with friction as without
-    limit = _limit(scene.liner, contact, zeta, omega, rows, places)
+    Phi_lean = closing_rows(rom, scene.casing, places.xi, leans) @ Phi if leans else Phi[:0]
+    along = Phi_t if contact.tangential else Phi[:0]  # with friction as without
+    limit = _limit(scene.liner, contact, zeta, omega, (Phi_b, along, Phi_lean), places)
     steps = steps or _steps_per_round(integrator, scene.record.samples_per_round, Omega, limit)
     h = 2 * np.pi / Omega / steps
     if (mu := contact.friction) is not None:
         stiffness = strip_stiffness(scene.liner, places)
-        _require_one_solution(
-            sliding_modes(omega, Phi_b, Phi_t, places), mu, zeta, h, steps, stiffness
-        )
-    compliance = _pushed(mu, Phi_b, Phi_t, places) @ gain(omega, zeta, h)
+        _, closing, sliding = sliding_modes(omega, Phi_b, Phi_t, places)
+        modes = omega, np.vstack([closing, Phi_lean]), np.vstack([sliding, 0 * Phi_lean])
+        of_rows = np.concatenate([stiffness, INERTIA * stiffness[: len(Phi_lean)]])
+        _require_one_solution(modes, mu, zeta, h, steps, of_rows)
+    pushed = _pushed(mu, Phi_b, Phi_t, places)
+    if leans:  # an edge moves by the lean, too
+        pushed = pushed + INERTIA * Phi_lean**2
+    compliance = pushed @ gain(omega, zeta, h)
     if faults := growth_fault(scene.gaps, rom, places.xi, np.array([Omega])):
         raise SceneError(*faults)
     strips = strips_under(scene, rom, places, Omega, steps, compliance)
@@ -108,6 +121,7 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
         Phi=Phi,
         Phi_b=Phi_b,
         Phi_t=Phi_t,
+        Phi_lean=Phi_lean,
         Phi_out=closing_rows(rom, scene.casing, outputs) @ Phi,
         edges=edges,
         Phi_timing=rom.timing_rows @ Phi if tapers else Phi[:0],
@@ -174,18 +188,24 @@ def _limit(
     contact: Contact,
     zeta: float,
     omega: NDArray[np.float64],
-    rows: NDArray[np.float64],
+    rows: tuple[NDArray[np.float64], ...],
     places: Places,
 ) -> float:
-    """Stability limit of central differences with contact, s; 0 for a rigid law."""
+    """Stability limit of central differences with contact, s; 0 for a rigid law.
+
+    ``rows``: radial, tangential and lean ones, those that are modelled.
+    """
     stiffness = strip_stiffness(liner, places)
     if np.isinf(stiffness).any():
         return 0.0
     if contact.tangential:  # along the normal (1, p'), steepest at the ends of the profile
         profile = known(contact.profile, "contact.profile")
-        steepest = abs(profile.tilt) + 4 * profile.edge_drop_m / liner.footprint_m
-        stiffness = np.concatenate([padded(stiffness), stiffness]) * (1 + steepest**2)
-    return step_limit(omega, rows, zeta, stiffness)
+        steepest = abs(profile.tilt) + 4 * profile.edge_drop_m / places.footprint
+        stiffness = stiffness * (1 + steepest**2)
+    of_rows = [
+        factor * stiffness for factor, of in zip((1.0, 1.0, INERTIA), rows, strict=True) if len(of)
+    ]
+    return step_limit(omega, rows_of(*rows), zeta, rows_of(*of_rows))
 
 
 def _require_one_solution(
@@ -212,7 +232,7 @@ def _require_one_solution(
 
 def strip_stiffness(liner: Liner, places: Places) -> NDArray[np.float64]:
     """Stiffness (m,) of each strip engaged over its footprint, N/m: E w L / l."""
-    return liner.law.modulus * places.width * liner.footprint_m / liner.thickness_m
+    return liner.law.modulus * places.width * places.footprint / liner.thickness_m
 
 
 def _steps_per_round(integrator: Integrator, samples: int, Omega: float, limit: float) -> int:
@@ -287,13 +307,15 @@ def strips_under(
         for harmonic in casing.travelling
     ]
     passed = nu / steps  # rods, in a step
-    radius = float(rom.camber[:, 0].mean())
-    length = float(max(rods_in_footprint(liner.footprint_m, radius, nu), np.ceil(passed), 1))
-    m = int(np.ceil(length))
+    covers, radius = given_footprint(liner, rom) is None, rom.camber[:, 0].mean()
+    rods = rods_in_footprint(places.footprint, places.radius if covers else radius, nu)
+    length = np.maximum(rods, max(np.ceil(passed), 1))
+    m, leans = int(np.ceil(length.max())), rom.across == 2
     partly_covered = min(max(ceil((passed - 1) / 2), 0), max(nu - m, 0) // 2)
     implicit = scene.stepping.scheme == "piecewise-exact"
     placed = 0.5 if implicit else 1.0
     w_end = share_of_end(np.maximum(compliance, 0) * strip_stiffness(liner, places))
+    rows, blocks = (0.0,) * rom.across, len(places.xi) + -len(places.xi) % LANES
     middle = places.theta * nu / (2 * np.pi) - (1 - placed) * nu / steps
     backing = liner.thickness_m if liner.worn_through == "casing" else np.inf
     return Strips(
@@ -307,16 +329,21 @@ def strips_under(
         advance=passed,
         length=length,
         rods_covered=m,
+        inset=(m - np.ceil(length).astype(int)) // 2,
         partly_covered=partly_covered,
         placed=placed,
         w_end=w_end if implicit else np.ones(len(w_end)),
-        area=places.width * liner.footprint_m / length,
+        area=places.width * places.footprint / length,
         thickness=liner.thickness_m,
         pitch=2 * np.pi * places.radius / nu,
-        tip=_tip(scene.contact.profile, liner.footprint_m),
+        tip=_tip(scene.contact.profile, places.footprint),
         touches=liner.law.touches,
         tangential=scene.contact.along,
         rigid_depth=backing if liner.law.deforms else 0.0,
+        first_t=blocks,
+        first_lean=blocks * (1 + scene.contact.along),
+        lean=lean_of_gaps(scene.gaps, rom, places.xi, Omega) if leans else np.zeros(len(places.xi)),
+        rows=rows,
         waves=waves(fixed, np.array(moving, float)) if moving else STANDING,
     )
 
@@ -353,20 +380,23 @@ def _check_start(casing: Casing, strips: Strips) -> None:
         )
 
 
-def _tip(profile: Profile | None, footprint: float) -> Tip:
+def _tip(profile: Profile | None, footprint: NDArray[np.float64]) -> Tip:
+    """Profile over each ``footprint`` (m,), m."""
     if profile is None:
-        return FLAT
+        return Tip(0.0, *np.zeros((3, len(footprint))))
     half = footprint / 2
     curvature = profile.edge_drop_m / half**2
-    ends = half * np.sign(profile.tilt)
-    apex = -np.clip(profile.tilt / (2 * curvature), -half, half) if curvature > 0 else -ends
-    return Tip(profile.tilt, curvature, float(apex), half)
+    if profile.edge_drop_m > 0:
+        apex = -np.clip(profile.tilt / (2 * curvature), -half, half)
+    else:
+        apex = -half * np.sign(profile.tilt)
+    return Tip(profile.tilt, curvature, apex, half)
 
 
 def edge_slope(profile: Profile | None, footprint: float) -> float:
     """Slope of the tip where it is closest to the casing: 0 unless that is an edge."""
-    tip = _tip(profile, footprint)
-    return abs(tip.tilt + 2 * tip.curvature * tip.apex)
+    tip = _tip(profile, np.array([footprint]))
+    return float(abs(tip.tilt + 2 * tip.curvature * tip.apex)[0])
 
 
 def _rod_law(liner: Liner) -> RodLaw:

@@ -44,7 +44,7 @@ class Worn:
 
 
 UNDER = ("at", "passed", "stored", "ramp", "low", "high")  # of ``rods.STRIP``
-SOLVER = ("F", "reaction")  # of ``interface_force.AT_STRIP``
+SOLVER = ("F", "moment", "reaction")  # of ``interface_force.AT_STRIP``
 
 
 def rows_at(rounds: int, steps: int) -> list[int]:

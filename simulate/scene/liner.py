@@ -34,8 +34,13 @@ class Liner(Settings):
         description=f"Number of strips along the chord, of equal length; {STRIPS} without "
         "accuracy, which chooses it",
     )
-    footprint_m: float = Field(
-        ge=1e-5, le=0.3, description="Arc length of a strip that the tip covers (m)"
+    footprint_m: float | None = Field(
+        default=None,
+        ge=1e-5,
+        le=0.3,
+        description="Arc of a strip that the tip rubs (m), the same along the chord; without it "
+        "that which the tip covers at each place. Required for a model that does not know the "
+        "thickness of its tip; not used with interface.across: 2",
     )
     rods_per_round: int | None = Field(
         default=None,

@@ -15,6 +15,7 @@ import numpy as np
 
 from geometry.project import WARNING, duration
 from rom.model import Rom
+from simulate.contact.places import mean_footprint
 from simulate.contact.strips import rods_in_footprint
 from simulate.errors.neighbour import Neighbour
 from simulate.errors.neighbours import HALF, TWIN
@@ -104,7 +105,7 @@ def _of_step(liner: Liner, rom: Rom, steps: float) -> float:
     if liner.law.touches:
         radius, nu = float(rom.camber[:, 0].mean()), liner.nu
         passed = ceil(nu / steps)
-        rods = 1 + passed + max(rods_in_footprint(liner.footprint_m, radius, nu), passed)
+        rods = 1 + passed + max(rods_in_footprint(mean_footprint(liner, rom), radius, nu), passed)
     return STEP + MODE_STRIP * rom.n * liner.m + ROD_STRIP * liner.m * rods
 
 

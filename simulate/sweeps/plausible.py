@@ -14,6 +14,7 @@ import xarray as xr
 from geometry.project import Caution
 from rom.model import Rom
 from simulate.contact.gaps import given_gaps
+from simulate.contact.places import given_footprint
 from simulate.scene import LEADING, Casing, Liner, Profile, Scene
 
 SLOWEST = 0.005  # over f1(0): below, no engine order up to 200 meets f1
@@ -140,7 +141,14 @@ def _of_liner(liner: Liner, rom: Rom) -> list[Implausible]:
     E, sigma_Y = getattr(law, "E", inf), getattr(law, "sigma_Y", 0.0)
     return [
         (
-            liner.footprint_m > chord,
+            liner.footprint_m is not None and rom.across == 2,
+            "liner.footprint_m",
+            f"liner.footprint_m: {liner.footprint_m:g}: is not used with two rows across the "
+            "thickness: the tip rubs the arc that it covers; take it out, or give the blade "
+            "interface.across: 1",
+        ),
+        (
+            (given_footprint(liner, rom) or 0.0) > chord,
             "liner.footprint_m",
             f"liner.footprint_m: {liner.footprint_m:g}: longer than the chord of {chord:.3g} m; it "
             "is the arc over which one strip of the tip rubs, some mm; is it in mm or cm?",

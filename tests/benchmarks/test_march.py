@@ -63,8 +63,8 @@ def contact_forces(strips, covered, u_r, a, step, eps_p, force):
         force[i] = 0.0
         if u_r[i] - strips.g0[i] + a * strips.d_window[_first(strips, i, step)] > 0.0:
             now = Step(step, a, a, 0, 0, 0)
-            cover(strips, covered, eps_p, i, now, 0.0, u_r[i], 0.0, 0.0, False, energies)
-            force[i] = press(strips, covered, eps_p, i, u_r[i], u_r[i], energies)[0]
+            cover(strips, covered, eps_p, i, now, 0.0, u_r[i], 0.0, 0.0, 0.0, 0.0, False, energies)
+            force[i] = press(strips, covered, eps_p, i, u_r[i], u_r[i], 0.0, 0.0, energies)[0]
     return force.max() > 0.0
 
 

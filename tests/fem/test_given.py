@@ -51,7 +51,8 @@ def files(coarse_matrices, solid, tmp_path_factory):
 
 
 def settings(keys, **others):
-    return check_settings(GivenMatrices, {"full_matrices": keys, "patches": 8} | others, "test")
+    tip = {"patches": 8, "across": 1}
+    return check_settings(GivenMatrices, {"full_matrices": keys} | tip | others, "test")
 
 
 @pytest.mark.parametrize("how", ["tip", "S"])

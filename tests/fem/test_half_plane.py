@@ -89,7 +89,7 @@ def flamant(n, terms=120):
 @pytest.fixture(scope="module")
 def found(box, coarse_blade):
     """C of two meshes, the second one of half the size."""
-    blade = given(coarse_blade, interface={"patches": PATCHES})
+    blade = given(coarse_blade, interface={"patches": PATCHES, "across": 1})
     solids = [half_plane(box, level) for level in (1, 2)]
     return [compliance(s, interface_of(s, blade), plane_strain) for s in solids]
 
@@ -152,7 +152,8 @@ def test_block_pressed_evenly_shortens_everywhere_alike(box, coarse_blade):
     def sideways(X):
         return np.broadcast_to([False, True, True], X.shape)
 
-    interface = interface_of(solid, given(coarse_blade, interface={"patches": n}))
+    blade = given(coarse_blade, interface={"patches": n, "across": 1})
+    interface = interface_of(solid, blade)
     p = 1e6  # Pa
     spacing = length / (n - 1)
     forces = p * width * spacing * np.r_[0.5, np.ones(n - 2), 0.5]  # int phi_i p dA

@@ -12,7 +12,6 @@ from fem.interface import interface_of
 from geometry.hats import hat_nodes, hats, middles
 from geometry.interface import tip_of
 from geometry.profile import profile_at
-from tests.simulate.interface.nodes import node_areas
 
 R = 0.5624
 
@@ -189,12 +188,20 @@ def test_points_keep_quadratic_fields(box, coarse_blade):
     np.testing.assert_allclose(c, expected, rtol=0, atol=1e-12)
 
 
-def test_areas_of_the_nodes_are_shares_of_the_tip(solid, coarse_blade, box):
-    """None is negative, as the integrals of P2's corners would be on a bent facet."""
-    areas = node_areas(solid)
-    on_tip = np.unique(solid.tip)
-    assert areas[on_tip].min() > 0
-    assert not np.delete(areas, on_tip).any()
-    # the profile's plane section; the cylinder's is larger by (y / R)^2 / 2, up to 0.1 %
-    assert areas.sum() == pytest.approx(profile_at(coarse_blade.sections, R).area, rel=2e-3)
-    assert node_areas(box([1, 2, 3], [0.1, 0.2, 0.4])).sum() == pytest.approx(0.08, rel=1e-12)
+@pytest.mark.parametrize("direction", range(3))
+def test_two_rows_are_the_displacements_of_both_edges(solid, coarse_blade, tip, direction):
+    """A field linear in the angle; each edge errs by 2 % of the thickness, as hats cut its bend."""
+    of = interface_of(solid, coarse_blade.but(interface={"patches": 8, "across": 2}))
+    X = solid.free_coordinates()
+    constant = (of.S @ DIRECTIONS[direction](X).ravel()).reshape(2, 8, 3)
+    expected = np.zeros((2, 8, 3))
+    expected[..., direction] = 1
+    np.testing.assert_allclose(constant, expected, rtol=0, atol=4 * CONSTANT)
+    theta = np.arctan2(X[:, 1], X[:, 0])
+    c = of.S @ (theta[:, None] * DIRECTIONS[direction](X)).ravel()
+    xi = np.linspace(0.1, 0.9, 17)
+    edges = c.reshape(2, 8, 3)[..., direction] @ hats(xi, of.xi).T
+    sides = tip.at_z(np.interp(xi, np.linspace(0, 1, len(of.camber)), of.camber[:, 2]))
+    thickest = np.diff(sides, axis=0).max()
+    np.testing.assert_allclose(edges, sides, rtol=0, atol=0.02 * thickest)
+    np.testing.assert_allclose(of.sides, tip.at_z(of.camber[:, 2]), rtol=0, atol=0)

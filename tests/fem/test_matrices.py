@@ -45,6 +45,7 @@ def made() -> Matrices:
         xi=np.array([0.0, 1.0]),
         points=np.empty((0, 3)),
         camber=rng.normal(size=(5, 3)),
+        sides=rng.normal(size=(2, 5)),
         span=1 / 7,
         provenance=Provenance("made", "5ead", {"patches": 2}, code_hash(*CODE)),
     )

@@ -55,9 +55,8 @@ class Model(NamedTuple):
 def settings(mesh, M, K, **others):
     keys = {"M": M, "K": K if isinstance(K, dict) else {0.0: K}, "mesh_file": mesh}
     top = {} if isinstance(K, dict) else {"max_speed_rad_s": 500.0}
-    return check_settings(
-        GivenMatrices, {"full_matrices": keys, "patches": 8} | top | others, "test"
-    )
+    tip = {"patches": 8, "across": 1}
+    return check_settings(GivenMatrices, {"full_matrices": keys} | tip | top | others, "test")
 
 
 def frequencies(M, K, count=10):
@@ -127,8 +126,8 @@ def test_bricks_move_their_diagonals_with_their_faces(coarse_blade, tmp_path):
         name = {20: "C3D20R", 8: "C3D8", 15: "C3D15"}[nodes.shape[1]]
         exports.write_inp(tmp_path / "b.inp", points, nodes, groups, name)
         deck = deck_of(mesh_file({"file": "b.inp", "unit": "mm"} | ENDS), tmp_path)
-        S, _ = deck.interface(8)
-        split, _ = deck._replace(weights=eye_array(len(deck.points))).interface(8)
+        S, *_ = deck.interface(8, 1)
+        split, *_ = deck._replace(weights=eye_array(len(deck.points))).interface(8, 1)
         assert S.shape[1] == 3 * len(deck.numbers) < split.shape[1]
         np.testing.assert_allclose(
             S @ fields(deck.coordinates), split @ fields(deck.points), atol=1e-12
@@ -349,7 +348,7 @@ def test_tetrahedra_of_calculix_are_ours_at_its_points(straight, coarse_blade, t
     4e-9 to 2e-6.
     """
     _, fom = straight.read()
-    own = exports.as_meshed(coarse_blade, "blade.inp", interface={"patches": 8})
+    own = exports.as_meshed(coarse_blade, "blade.inp", interface={"patches": 8, "across": 1})
     own = own.model_copy(update={"mesh_file": mesh_file(straight.mesh)})
     mesh = tmp_path / "blade.msh"
     build_mesh(own, mesh, straight.folder / "blade.inp")

@@ -16,10 +16,11 @@ from workflow.config import Config  # noqa: F401
 
 PACKAGES = ("geometry", "simulate", "workflow")
 REFERENCE = (Path(__file__).parents[2] / "workflow/blades/reference.yaml").read_text()
-SPEED, PATCHES, SPAN = "max_speed_rad_s: 650", "patches: 16", "span_mm: 140"
+SPEED, SPAN = "max_speed_rad_s: 650", "span_mm: 140"
+PATCHES = "patches: 16\n  across: 1"
 PAPER = f"{SPEED}\nbasis: {{kind: paper}}"
 LISTED = "points_mm: [[562, 1, 1], [562, 0, 2]]"
-PATCHES_ALONE = ["patches", "nodes", "along", "points_mm"]
+PATCHES_ALONE = ["patches", "across", "nodes", "along", "points_mm"]
 
 
 @pytest.fixture
@@ -255,7 +256,7 @@ def test_points_are_given_by_one_rule(read, rule):
 
 
 def test_default_is_of_sixteen_patches(read):
-    blade = read({f"interface:\n  {PATCHES}\n": ""})
+    blade = read({f"interface:\n  {PATCHES}": ""})
     assert blade.interface.patches == 16
     assert not blade.of_points
 
@@ -273,7 +274,7 @@ def test_the_settings_of_a_model_are_those_that_affect_it(coarse_blade, paper_bl
     """Not the tolerance of its check, nor keys of points where there are patches."""
     of_matrices = coarse_blade.settings_of_matrices()
     assert set(of_matrices) == {"material", "prestress", "max_speed_rad_s", "interface"}
-    assert of_matrices["interface"] == {"patches": 8}
+    assert of_matrices["interface"] == {"patches": 8, "across": 1}
     assert set(paper_blade.settings_of_matrices()["interface"]) == {"nodes", "along"}
     judged = coarse_blade.basis.model_copy(update={"tolerance_percent": 5.0})
     richer = coarse_blade.basis.model_copy(update={"natural_modes": 30})

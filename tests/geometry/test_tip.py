@@ -171,3 +171,47 @@ def test_outline_that_folds_over_its_chord_is_refused():
     )
     points = np.column_stack([np.full(len(ring), R), ring])
     refused(MeshError, DevelopedTip.of(points).camber_line, match="meets 4 sides")
+
+
+def between(behind, thickness, z):
+    """Outline (2 m, 3), m, of a tip with the angle ``behind`` (m,), rad, ``thickness`` and z."""
+    theta = np.concatenate([behind, (behind + thickness)[::-1]])
+    return np.column_stack([R * np.cos(theta), R * np.sin(theta), np.concatenate([z, z[::-1]])])
+
+
+@pytest.fixture(scope="module")
+def bent():
+    """Angle behind, thickness, z: staggered by 48 degrees, bent, thick in the middle."""
+    z = np.linspace(0, 0.04, 800)
+    behind = 1.1 * z / R + 30 * (z - 0.02) ** 2 / R
+    return behind, (0.4e-3 + 10 * z * (0.04 - z)) / R, z
+
+
+def test_edges_at_equal_z_are_those_of_the_closed_form(bent):
+    behind, thickness, z = bent
+    tip = DevelopedTip.of(between(*bent))
+    assert tip.has_two_edges
+    edges, inside = [behind, behind + thickness], slice(1, -1)  # both ends are straight cuts
+    found = tip.at_z(z)[:, inside]
+    np.testing.assert_allclose(found, np.array(edges)[:, inside], rtol=0, atol=1e-12)
+    at, share = np.linspace(50, 749, 30).astype(int), np.linspace(0, 1, 30)
+    theta = behind[at] + share * thickness[at]
+    xi, eta = tip.across(cartesian(np.column_stack([np.full(30, R), theta, z[at]])))
+    np.testing.assert_allclose(eta, share, rtol=0, atol=1e-10)
+    line = np.interp(xi, PLACES, tip.camber_line()[:, 2])
+    np.testing.assert_allclose(line, z[at], rtol=0, atol=1e-12)
+
+
+def test_a_tip_that_a_circle_meets_more_than_twice_has_no_two_edges(bent):
+    """A bend that brings the sides back to the same z; whatever the density of its points."""
+    for count in (40, 800):
+        along, across = np.linspace(-0.02, 0.02, count), 1e-3
+        turned = np.radians(75)
+        rise = -60 * along**2
+        s = along * np.sin(turned) + rise * np.cos(turned)
+        z = along * np.cos(turned) - rise * np.sin(turned)
+        theta = np.concatenate([s, (s + across)[::-1]]) / R
+        folded = cartesian(np.column_stack([np.full(2 * count, R), theta, [*z, *z[::-1]]]))
+        tip = DevelopedTip.of(folded)
+        assert not tip.has_two_edges and tip.at_z(z).shape == (2, 0)
+        refused(MeshError, tip.across, folded, match="interface.across: .*twice")

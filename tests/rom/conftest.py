@@ -54,6 +54,7 @@ class Small:
             xi=np.array([0.25, 0.75]),
             points=np.array([[0.5, 0.2, 0.0], [0.5, 0.1, 0.1]]),
             camber=np.array([[0.5, 0.2, -0.1], [0.5, 0.1, 0.2]]),
+            sides=np.empty((2, 0)),
             span=0.4,
             provenance=Provenance("small", "5ead", {}, "c0de"),
         )

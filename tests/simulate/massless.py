@@ -185,7 +185,7 @@ def find_force(scheme, strips, state, step):
         count = active
         if not scheme.forces(scheme, strips, state, count):
             solver.unsolved[0] += 1
-        displace(scheme.C, solver, count, False, motion)
+        displace(scheme.C, strips, solver, count, motion)
         wider = widen_reached(strips, state, step, count)
     for row in range(motion.u.shape[1]):
         motion.u[step.now, row] -= motion.moved[row]

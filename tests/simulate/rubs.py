@@ -1,9 +1,9 @@
 """Small systems that rub, of which the energies are known."""
 
 import numpy as np
-from systems import Hooke, Parameters, lively, march, march_exact, strips
+from systems import FLAT, Hooke, Parameters, lively, march, march_exact, strips
 
-from simulate.contact.strips import FLAT, Tip
+from simulate.contact.strips import Tip
 
 SCHEMES = {"central-difference": march, "piecewise-exact": march_exact}
 

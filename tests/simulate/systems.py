@@ -9,10 +9,10 @@ from simulate.contact.compiled import for_types_of
 from simulate.contact.ledger import CASING, DAMPING, FRICTION, HEAT, PLASTIC, RELEASED, WORK, Ledger
 from simulate.contact.ramp import smooth
 from simulate.contact.rod_law import RodLaw, rod_law
-from simulate.contact.strips import FLAT, Strips, largest_over_window
+from simulate.contact.strips import Strips, Tip, largest_over_window
 from simulate.marching import central_difference, friction, piecewise_exact
 from simulate.marching.kernel import RUNNING, Recorded, State, at_start, march_round
-from simulate.marching.modal import TURNS, padded_rows, rows_of
+from simulate.marching.modal import LANES, TURNS, padded_rows, rows_of
 from simulate.marching.piecewise_exact import share_of_end
 from simulate.scene.law import numbers_of
 from simulate.scene.laws.elastic import Elastic
@@ -20,6 +20,7 @@ from simulate.scene.laws.plastic import Plastic
 
 # parameters of the laws plastic and elastic, Pa
 Parameters, Hooke = numbers_of("E", "K", "sigma_Y"), numbers_of("E")
+FLAT = Tip(0.0, 0.0, 0.0, 0.0)  # of one strip, as all tips here: ``strips`` gives it to each
 
 
 @dataclass(frozen=True)
@@ -47,8 +48,9 @@ def strips(
     of a step; ``march_exact`` moves them to its middle.
     """
     m, g0, d = ceil(length), np.atleast_1d(np.asarray(g0, float)), np.asarray(d, float)
+    n = len(g0)
     partly_covered = min(max(ceil((advance - 1) / 2), 0), max(len(d) - m, 0) // 2)
-    first = np.zeros(len(g0)) if first is None else np.asarray(first, float)
+    first = np.zeros(n) if first is None else np.asarray(first, float)
     if not isinstance(law, RodLaw):
         of = Elastic if isinstance(law, Hooke) else Plastic
         law = rod_law(of, type(law)(*map(float, law)))
@@ -61,18 +63,23 @@ def strips(
         d_window=largest_over_window(d, min(m + 1 + 2 * partly_covered, len(d))),
         first=(first - partly_covered) % len(d),
         advance=float(advance),
-        length=float(length),
+        length=np.full(n, float(length)),
         rods_covered=m,
+        inset=np.zeros(n, int),
         partly_covered=partly_covered,
         placed=1.0,
-        w_end=np.ones(len(g0)),
+        w_end=np.ones(n),
         area=np.broadcast_to(np.asarray(area, float), g0.shape).copy(),
         thickness=float(thickness),
-        pitch=np.full(len(g0), float(pitch)),
-        tip=tip,
+        pitch=np.full(n, float(pitch)),
+        tip=Tip(tip.tilt, *(np.full(n, of_strip) for of_strip in tip[1:])),
         touches=True,
         tangential=False,
         rigid_depth=rigid_from,
+        first_t=n + -n % LANES,
+        first_lean=n + -n % LANES,
+        lean=np.zeros(n),
+        rows=(0.0,),
     )
 
 
@@ -141,7 +148,10 @@ def march_by(
         rows = rows_of(Phi_b, np.atleast_2d(Phi_t).astype(float))
         stiffness = system.law.parameters.E * system.area * system.length / system.thickness
         arrays = friction.sliding(
-            scheme.coefficients(omega, rows, xi, h), np.full(len(stiffness), mu), stiffness
+            scheme.coefficients(omega, rows, xi, h),
+            system.first_t,
+            np.full(len(stiffness), mu),
+            stiffness,
         )
         system = system._replace(tangential=True)
     state, nodes, n = at_start(arrays, system), len(system.g0), len(omega)

@@ -76,7 +76,7 @@ def pair_of(name, folder):
     for patches, modes in ((16, 24), (24, 36)):
         values |= {
             "mesh": {"element_size_mm": 5.0},
-            "interface": {"patches": patches},
+            "interface": {"patches": patches, "across": 1},
             "basis": {"natural_modes": modes},
         }
         blade = check_settings(Blade, values, name)

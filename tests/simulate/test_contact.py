@@ -5,6 +5,7 @@ import numba
 import numpy as np
 import pytest
 from systems import (  # `strips` is a field that compiled functions read
+    FLAT,
     Hooke,
     Parameters,
     strips as strips_of,
@@ -24,7 +25,6 @@ from simulate.contact.rods import (
     widen,
 )
 from simulate.contact.strips import (
-    FLAT,
     Tip,
     contact_free,
     covered_share,
@@ -48,8 +48,8 @@ def press_all(system, covered, eps_p, u, a, step, force):
     energies = np.zeros(5)
     for i in range(force.size):
         now = Step(step, a, a, 0, 0, 0)
-        cover(system, covered, eps_p, i, now, 0.0, u[i], 0.0, 0.0, False, energies)
-        force[i] = press(system, covered, eps_p, i, u[i], u[i], energies)[0]
+        cover(system, covered, eps_p, i, now, 0.0, u[i], 0.0, 0.0, 0.0, 0.0, False, energies)
+        force[i] = press(system, covered, eps_p, i, u[i], u[i], 0.0, 0.0, energies)[0]
 
 
 def force_at(system, u, a=1.0, step=0, eps_p=None):
@@ -231,12 +231,12 @@ TIPS = {
 @numba.njit
 def reach_all(system, covered, step, w_from, w, share, reach):
     eps_p, now = np.zeros((1, system.d.size)), Step(step, 1.0, 1.0, 0, 0, 0)
-    cover(system, covered, eps_p, 0, now, w_from, w, 0.0, 0.0, True, np.zeros(5))
+    cover(system, covered, eps_p, 0, now, w_from, w, 0.0, 0.0, 0.0, 0.0, True, np.zeros(5))
     strip = covered.strips[0]
     for k in range(reach.size):
-        first, last = covered_share(system, k, strip.passed, strip.slid)
+        first, last = covered_share(system, 0, k, strip.passed, strip.slid)
         share[k] = last - first
-        reach[k] = deepest_reach(system, covered, 0, k, w_from, w, first, last)
+        reach[k] = deepest_reach(system, covered, 0, k, w_from, w, 0.0, 0.0, first, last)
 
 
 @pytest.mark.parametrize("advance", [0.1, 0.7, 2.5])
@@ -284,14 +284,14 @@ def test_the_deepest_reach_over_a_centre_is_that_of_ten_thousand_times_in_the_st
 def bearing_up_to(system, covered, w, deeper, widened):
     """Force at a displacement ``deeper`` than ``w``, for which the rods were found."""
     eps_p, now = np.zeros((1, system.d.size)), Step(3, 1.0, 1.0, 0, 0, 0)
-    cover(system, covered, eps_p, 0, now, -0.1, w, 0.0, 0.0, True, np.zeros(5))
+    cover(system, covered, eps_p, 0, now, -0.1, w, 0.0, 0.0, 0.0, 0.0, True, np.zeros(5))
     if widened == "by itself":
-        widen(system, covered, eps_p, 0, -0.1, w)
+        widen(system, covered, eps_p, 0, -0.1, w, 0.0, 0.0)
     elif widened == "all anew":
         window = covered.rods.shape[1]
-        fill(system, covered, eps_p, 0, 0, window, 0, -0.1, w, True)
+        fill(system, covered, eps_p, 0, 0, window, 0, -0.1, w, 0.0, 0.0, True)
         covered.strips[0].low, covered.strips[0].high = 0, window
-    return contact_force(system, covered, 0, deeper)
+    return contact_force(system, covered, 0, deeper, 0.0)
 
 
 @pytest.mark.parametrize("tip", [name for name in TIPS if name != "flat"])

@@ -116,7 +116,7 @@ def test_a_sweep_holds_its_scene_and_provenance(coarse_rom):
         and len(kept.attrs["code"]) == 16
     )
     assert kept.attrs["gap_m"] == pytest.approx(1.5e-4 * coarse_rom.span, rel=1e-14)
-    places = strip_places(coarse_rom, 12, scene().casing)
+    places = strip_places(coarse_rom, case.liner, case.casing)
     held = {
         "xi": ("strip", places.xi),
         "end": ("strip_end", places.ends),

@@ -35,7 +35,8 @@ class Interface(NamedTuple):
         solver, covered = new_solver(nodes), nothing_covered(system)
         at, rods = solver.unknowns, covered.rods[:, :m]
         covered.strips["high"] = m
-        at["strip"], at["v"], solver.C[:] = np.arange(nodes), self.v if v is None else v, self.C
+        at["strip"] = at["row"] = np.arange(nodes)
+        at["v"], solver.C[:] = self.v if v is None else v, self.C
         at["top"], solver.F[:] = self.top, guess
         rods["delta_0"], rods["eps_p"], rods["part"] = self.depth, self.eps_p, 1
         rods["start"] = self.start

@@ -9,6 +9,7 @@ OMEGA, XI = np.array([1.0, 7.0, 19.0]), 0.03
 K, TIME = 40.0, 6.0
 ONE, TWO = np.array([[0.6, -1.1, 0.8]]), np.array([[0.6, -1.1, 0.8], [0.5, 0.9, -0.2]])
 SLIDING = 0.2, np.array([[-0.7, 0.4, 0.5], [-0.9, 0.1, 0.8]])  # friction, tangential rows
+LEAN = np.array([[-0.3, 0.8, 0.5], [0.4, -0.6, 0.3]])  # edge ahead less edge behind, of TWO
 CASES = {  # scheme, order, its tolerance, error over the depth, rows, depth, sliding
     "central-difference": (march, 1, 0.15, 5e-4, ONE, 0.5, None),
     "piecewise-exact": (march_exact, 2, 0.05, 1e-7, ONE, 0.5, None),

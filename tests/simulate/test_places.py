@@ -13,7 +13,8 @@ ENDS = [np.linspace(0, 1, m + 1) for m in (1, 4, 8, 12, 16, 32)] + [UNEVEN]
 
 @pytest.mark.parametrize("m", [1, 7, 8, 16, 32])
 def test_strips_are_equal_parts_of_the_chord_with_their_places_in_the_middle(coarse_rom, m):
-    places = strip_places(coarse_rom, m, scene().casing)
+    case = scene(liner__strips=m)
+    places = strip_places(coarse_rom, case.liner, case.casing)
     np.testing.assert_allclose(places.ends, np.linspace(0, 1, m + 1), rtol=0, atol=1e-15)
     np.testing.assert_allclose(places.xi, (np.arange(m) + 0.5) / m, rtol=1e-15)
     on_line = coarse_rom.line(places.xi)
@@ -30,7 +31,8 @@ def test_strips_are_equal_parts_of_the_chord_with_their_places_in_the_middle(coa
 def test_points_have_a_strip_each_that_ends_halfway_to_the_next(paper_reduced):
     rom, _ = paper_reduced
     assert rom.of_points
-    places, n = strip_places(rom, 16, scene().casing), len(rom.xi)  # whatever is asked for
+    case = scene(liner__strips=16)  # whatever is asked for
+    places, n = strip_places(rom, case.liner, case.casing), len(rom.xi)
     np.testing.assert_array_equal(places.xi, rom.xi)
     np.testing.assert_array_equal(places.theta, rom.points[:, 1])
     assert len(places.ends) == n + 1 and (places.ends[0], places.ends[-1]) == (0, 1)

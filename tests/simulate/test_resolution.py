@@ -36,9 +36,7 @@ def check(case, rom, over_f1=0.3):
 
 def window(case, rom):
     setup = set_up(case, rom)
-    return shortest_window(
-        case.liner.footprint_m, setup, setup.strips.d.max() - setup.strips.g0.min()
-    )
+    return shortest_window(setup, setup.strips.d.max() - setup.strips.g0.min())
 
 
 def tabled(theta, depth):

@@ -120,7 +120,7 @@ def beyond_casing(case, setup, outcome):
         step = (n % per_round + 1) * setup.steps // per_round + 1 - rods.placed  # its end
         first = rods.first + rods.partly_covered + step * rods.advance
         for i, place in enumerate(first + (rods.rods_covered - 1) / 2):
-            ends = place + np.array([-0.5, 0.5]) * rods.length
+            ends = place + np.array([-0.5, 0.5]) * rods.length[i]
             under = np.r_[ends[0], np.arange(np.ceil(ends[0]), ends[1]), ends[1]]
             d = np.interp(under, np.arange(nu), rods.d, period=nu)
             lift[n, i] = a[n] * d.max() - rods.g0[i]

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from refused import refused
 from scenes import scene
-from systems import Parameters, lively, march, march_exact, strips
+from systems import FLAT, Parameters, lively, march, march_exact, strips
 
 from geometry.project import SettingsError
 from simulate.contact.rod_law import rod_law
-from simulate.contact.strips import FLAT, Tip, largest_over_window
+from simulate.contact.strips import Tip, largest_over_window
 from simulate.contact.travelling import waves
 from simulate.scene.casing import Harmonic
 from simulate.scene.law import numbers_of

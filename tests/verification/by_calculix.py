@@ -44,7 +44,7 @@ def theirs(name: str, cells: Cells, material: Material, speeds: Sequence[float])
 def coarse() -> Blade:
     """The reference blade on 768 cells."""
     blade = Blade.load(ROOT / "workflow/blades/reference.yaml")
-    return given(blade, mesh={"element_size_mm": 10.0}, interface={"patches": 8})
+    return given(blade, mesh={"element_size_mm": 10.0}, interface={"patches": 8, "across": 1})
 
 
 def cells_of(mesh: Path) -> Cells:

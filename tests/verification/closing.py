@@ -22,12 +22,13 @@ def tip_facets(mesh: Path) -> Facets:
 
 
 def closing(
-    of: Facets, fom: Matrices, T: NDArray[np.float64], xi: NDArray[np.float64]
+    of: Facets, fom: Matrices, T: NDArray[np.float64], xi: NDArray[np.float64], edges: bool = False
 ) -> NDArray[np.float64]:
     """P (k, n): what closes the gap to the cone at chord fractions ``xi`` (k,), by the basis ``T``.
 
     u_r - (dr/dz) u_z is projected on the hats as it is on the facets, by sums over small parts of
-    these; dr/dz is that of the camber line at the same z.
+    these; dr/dz is that of the camber line at the same z. With ``edges`` (2, k, n), of the edges
+    behind and ahead: the hats times a share that goes from edge to edge at the same z.
     """
     points, facets = of
     i, j = np.indices((PARTS, PARTS))
@@ -44,13 +45,32 @@ def closing(
     line, n = fom.camber, len(fom.xi)
     slope = np.interp(z, line[:, 2], np.gradient(line[:, 0], line[:, 2]))
     normal = np.column_stack([places[:, 0] / r, places[:, 1] / r, -slope])
-    phi = tents(tip_of(facets, points).xi(places), n)
+    tip = tip_of(facets, points)
+    if edges:
+        behind, ahead = sides(tip.outline, z)
+        eta = (np.arctan2(places[:, 1], places[:, 0]) - behind) / (ahead - behind)
+        of_line = tents(np.interp(z, line[:, 2], np.linspace(0, 1, len(line))), n)
+        phi = np.hstack([of_line * share[:, None] for share in (1 - eta, eta)])
+    else:
+        phi = tents(tip.xi(places), n)
     weighted = areas[:, None] * phi
     _, at = KDTree(fom.coordinates).query(nodes)
     u = T.reshape(-1, 3, T.shape[1])[at]  # facets, nodes, xyz, DoFs
     moved = np.einsum("qn,fncd->fqcd", v, u).reshape(len(places), 3, -1)
     B = weighted.T @ np.einsum("pc,pcd->pd", normal, moved)
-    return tents(xi, n) @ np.linalg.solve(phi.T @ weighted, B)
+    coefficients = np.linalg.solve(phi.T @ weighted, B).reshape(phi.shape[1] // n, n, -1)
+    P = tents(xi, n) @ coefficients
+    return P if edges else P[0]
+
+
+def sides(outline: NDArray[np.float64], z: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Least and largest angle (2, k), rad, of the closed ``outline`` (r, theta, z) at ``z``."""
+    a, b = outline[:, 1:], np.roll(outline, -1, axis=0)[:, 1:]
+    share = (z[:, None] - a[:, 1]) / (b[:, 1] - a[:, 1])
+    crossed = (share >= 0) & (share <= 1)
+    theta = a[:, 0] + share * (b[:, 0] - a[:, 0])
+    least = np.where(crossed, theta, np.inf).min(axis=1)
+    return np.stack([least, np.where(crossed, theta, -np.inf).max(axis=1)])
 
 
 def shape(x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float64]:

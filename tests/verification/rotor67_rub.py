@@ -7,11 +7,12 @@ import numpy as np
 import peer
 from by_calculix import cells_of, theirs
 from cases import Case, Row
-from closing import closing, tip_facets
+from closing import closing, sides, tip_facets
 from numpy.typing import NDArray
 from rotor67 import coarse, mesh_at_rest
 
 from geometry.blade import RPM
+from geometry.interface import tip_of
 from geometry.project import ROOT
 from rom.model import Rom
 from rom.reduce import reduce
@@ -34,7 +35,7 @@ MIDDLES = (np.arange(16) + 0.5) / 16  # of the strips
 
 def rows() -> Iterator[Row]:
     """The crossing, the peak of the sweep, and one run near it by two programs."""
-    scene, (rom, P, of_calculix) = Scene.load(SCENE), models()
+    scene, (rom, P, edges, of_calculix) = Scene.load(SCENE), models()
     linear = RPM * rom.omega1 * crossing(rom, 2)
     yield Row("linear crossing of EO 2 with f1, rpm", meeting(of_calculix), linear, 1e-3)
     runs = sweep(scene, rom)
@@ -44,19 +45,21 @@ def rows() -> Iterator[Row]:
     yield Row("speed of the peak, rpm", None, RPM * rom.omega1 * peak.Omega_c, BY_A_SPEED)
     yield Row("amplitude of EO 2 there, um", None, 1e6 * gap * peak.amplitude, BY_A_SPEED)
     yield Row("largest displacement there, um", None, 1e6 * float(largest), BY_A_SPEED)
-    yield from near_the_peak(rom, P, scene)
+    yield from near_the_peak(rom, P, edges, scene)
 
 
-def models() -> tuple[Rom, NDArray[np.float64], list[float]]:
-    """Reduced model, ``closing`` rows, and f1 of CalculiX, Hz, at the speeds ``BESIDE``."""
+def models() -> tuple[Rom, NDArray[np.float64], NDArray[np.float64], list[float]]:
+    """Reduced model, ``closing`` rows, ``sides``; f1 of CalculiX, Hz, at the speeds ``BESIDE``."""
     blade = coarse()
     with TemporaryDirectory() as folder:
         mesh = mesh_at_rest(blade, folder)
         fom = assembled(blade, "rotor67", mesh)
         rom, T = reduce(fom, blade.basis, "r")
-        P = closing(tip_facets(mesh), fom, T, np.array([*MIDDLES, *EDGES]))
+        points, facets = tip_facets(mesh)
+        P = closing((points, facets), fom, T, np.array([*MIDDLES, *EDGES]), edges=True)
+        there = sides(tip_of(facets, points).outline, rom.line(MIDDLES)[:, 2])
         found = theirs("rotor67 at its crossing", cells_of(mesh), blade.material, BESIDE)
-    return rom, P, [f1 for f1, *_ in found]
+    return rom, P, there, [f1 for f1, *_ in found]
 
 
 def meeting(f1: list[float]) -> float:
@@ -66,21 +69,23 @@ def meeting(f1: list[float]) -> float:
     return float(RPM * np.sqrt(start / (4 - slope)))
 
 
-def near_the_peak(rom: Rom, P: NDArray[np.float64], scene: Scene) -> Iterator[Row]:
+def near_the_peak(
+    rom: Rom, P: NDArray[np.float64], edges: NDArray[np.float64], scene: Scene
+) -> Iterator[Row]:
     """Motion and wear by the independent program and ours; and by contact along the radius.
 
-    ``P`` (strips + edges, n): as of ``closing``.
+    ``P`` (2, strips + ends, n): as of ``closing``; ``edges`` (2, strips), rad: of ``sides``.
     """
     kept = {"history": {"chord": [*EDGES]}}
     alone, Omega = scene.but(peaks=None, record=kept), BELOW / RPM
     steps, m = scene.integrator.steps_per_round, len(MIDDLES)
     of = rom, alone, Omega, steps, steps * scene.rounds
-    their = peer.piecewise_exact(*of, P[:m], P[m:])
+    their = peer.piecewise_exact(*of, P[:, :m], P[:, m:].mean(axis=0), edges)
     ours, along = (march(case, rom, Omega) for case in (alone, alone.but(casing__slope=0.0)))
 
-    def numbers(edges: NDArray[np.float64], wear: NDArray[np.float64]) -> Iterator[float]:
-        """Half the range at both edges in the last revolution, deepest and mean wear, um."""
-        yield from 1e6 * np.ptp(edges[-steps:], axis=0) / 2
+    def numbers(ends: NDArray[np.float64], wear: NDArray[np.float64]) -> Iterator[float]:
+        """Half the range at both ends in the last revolution, deepest and mean wear, um."""
+        yield from 1e6 * np.ptp(ends[-steps:], axis=0) / 2
         yield from (1e6 * float(wear.max()), 1e6 * float(wear.mean()))
 
     found = (numbers(run.u_r[:, 1:], run.wear) for run in (ours, along))
@@ -93,8 +98,8 @@ def near_the_peak(rom: Rom, P: NDArray[np.float64], scene: Scene) -> Iterator[Ro
 CASE = Case(
     title="Rub of NASA rotor 67 (CalculiX, NumPy)",
     source="crossing: f1 by CalculiX 2.20 at 1730 and 1800 rad/s; wear: [an independent program in "
-    "plain NumPy](simulate/peer.py) on the same reduced model, whose motion towards the cone is "
-    "that of the tip's facets",
+    "plain NumPy](simulate/peer.py) on the same reduced model, whose motion towards the cone, of "
+    "the edges behind and ahead, is that of the tip's facets",
     compared="`workflow/scenes/rotor67.yaml`: a casing with two lobes rubs 0.1 mm from the tip, "
     "60 revolutions, elements of 6 mm. The model needs ten speeds, as the blade untwists by two "
     "degrees. Contact is along the normal of the casing. Along the radius, as up to 0.3.0, it "

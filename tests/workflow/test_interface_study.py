@@ -1,7 +1,5 @@
 """Study of the interface: changes and their limits, and contact at all nodes of the tip."""
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 from projects import ROOT
@@ -9,7 +7,6 @@ from scenes import scene
 from test_trade import cosine, single
 
 from fem.solid import read_solid
-from geometry.tip import on_line
 from simulate.errors.observables import numbers
 from simulate.errors.run import Case
 from simulate.marching import prepare
@@ -94,7 +91,9 @@ def test_the_tables_have_limits_and_mark_changes_above_them(models):
         "changes": [*rows, {"scene": "calm", "row": "default", "numbers": {"largest": 3.2e-8}}],
         "stress": interface.stresses(models),
         "all_nodes": [
-            {"scene": "calm", "moving": "alone", "amplitude": 0.01, "wear": 0.13, "volume": -0.02}
+            {"scene": "e1", "across": 2, "patches": 8, "deepest": deep, "amplitude": 0.01}
+            | {"wear": 0.13, "volume": -0.02}
+            for deep in (-0.03, 0.01, 0.05)
         ],
     }
     parts = [part.split("\n\n")[1].splitlines() for part in interface.table(study).split("##")[1:]]
@@ -102,7 +101,7 @@ def test_the_tables_have_limits_and_mark_changes_above_them(models):
     assert missed == [1, 1, 1, 3, 1, 0]  # wear of 2 % is within one of its four limits
     assert parts[3][-1].startswith("| calm | gaps by 1e-10 | 3.2e-08 |")
     assert "| 0.4 % (<= 0.6 %) |" in parts[2][5] and "**0.4 % (<= 0.3 %)** missed" in parts[2][4]
-    assert parts[5][2:] == ["| calm | alone | 13 % | -2 % | +1 % |"]
+    assert parts[5][2:] == ["| e1 | 2 | 8 | 3 | 3 % | 2 % | 1 % | 13 % |"]
 
 
 def test_the_rows_of_the_experiment_are_those_of_the_limits():
@@ -118,34 +117,6 @@ def test_the_row_that_others_are_compared_with_has_the_difference_of_its_twin(co
     setup = prepare(of, coarse_rom, coarse_rom.omega1 * 0.33)
     run = Case(of, coarse_rom, setup).march()
     assert 0 < interface.changes(run, None)["largest"] < 1e-3
-
-
-@pytest.fixture(scope="module")
-def solid(coarse_blade, coarse_mesh):
-    return read_solid(str(coarse_mesh.mesh), coarse_blade.material)
-
-
-SUBTRIANGLES = [(0, 3, 5), (3, 1, 4), (5, 4, 2), (3, 4, 5)]  # of six nodes, VTK's order
-
-
-def test_the_areas_of_nodes_add_up_to_that_of_the_tip(solid):
-    """That of four flat triangles in each facet, up to its curvature; every node has some."""
-    areas, points = nodes.node_areas(solid), solid.V.tabulate_dof_coordinates()
-    a, b, c = points[solid.tip[:, SUBTRIANGLES].reshape(-1, 3).T]
-    flat = np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2
-    assert areas.sum() == pytest.approx(flat, rel=3e-3)
-    used = np.unique(solid.tip)
-    assert (areas[used] > 0).all() and areas.sum() == pytest.approx(areas[used].sum(), rel=1e-14)
-
-
-def test_a_flat_facet_gives_its_corners_a_nineteenth_each():
-    """Diagonal of the mass matrix of six nodes: A/30 at corners, 8A/45 at middles."""
-    corners = np.array([[0, 0, 0], [2, 0, 0], [0, 1, 1]], float)
-    points = np.vstack([corners, (corners + np.roll(corners, -1, axis=0)) / 2])
-    space = SimpleNamespace(tabulate_dof_coordinates=lambda: points)
-    areas = nodes.node_areas(SimpleNamespace(V=space, tip=np.arange(6)[None]))
-    expected = np.sqrt(2) * np.repeat([3, 16], 3) / 57
-    assert areas == pytest.approx(expected, rel=1e-12)
 
 
 def test_the_interface_of_a_mesh_is_within_the_limits_of_the_study(
@@ -164,32 +135,41 @@ def test_the_interface_of_a_mesh_is_within_the_limits_of_the_study(
         assert len(row["compliance_m_per_N"]) == row["patches"] and "stress" not in row
 
 
-def test_nodes_of_the_tip_move_with_it_and_divide_the_area_of_their_stations(
-    monkeypatch, coarse_blade, coarse_matrices, coarse_mesh
-):
-    monkeypatch.setattr(nodes, "STATIONS", 8)
-    of_tip = nodes._nodes(coarse_blade, coarse_matrices.camber, coarse_mesh.mesh)
-    x, y, _ = coarse_matrices.coordinates.T
-    radial = np.column_stack([x, y, 0 * x]) / np.hypot(x, y)[:, None]
-    assert of_tip.S[::3] @ radial.ravel() == pytest.approx(1, rel=1e-12)
-    of_station = np.diff(on_line(coarse_matrices.camber, nodes._ends())[:, 2])
-    width = np.bincount(of_tip.station, of_tip.places.width)
-    assert width == pytest.approx(of_tip.across * of_station, rel=1e-12)
-    assert np.abs(of_tip.station / 8 - of_tip.places.xi).max() <= 1 / 16
-    assert np.ptp(of_tip.places.radius) < 1e-4  # m: the tip is round
+@pytest.fixture(scope="module")
+def of_nodes(coarse_blade, coarse_matrices, coarse_mesh):
+    solid = read_solid(str(coarse_mesh.mesh), coarse_blade.material)
+    return nodes.reference(coarse_blade, coarse_matrices, solid), solid
+
+
+def test_places_across_the_thickness_go_from_edge_to_edge_and_move_with_the_tip(of_nodes):
+    """Moved along the radius by their angle, places have the angles of both edges and between."""
+    of, solid = of_nodes
+    points = solid.V.tabulate_dof_coordinates()[np.unique(solid.tip)]
+    theta = np.zeros(of.rom.n)
+    theta[: len(points)] = np.arctan2(points[:, 1], points[:, 0])
+    expected = np.linspace(*of.sides, nodes.PLACES)
+    assert of.P @ theta == pytest.approx(expected, abs=2e-3 * np.diff(of.sides, axis=0).max())
+    assert of.P.sum(axis=-1) == pytest.approx(1, rel=1e-12)
+    assert (np.diff(of.sides, axis=0) > 0).all()
 
 
 @pytest.mark.slow
-def test_contact_at_all_nodes_of_the_tip_is_close_to_that_of_patches(
+def test_two_rows_across_the_thickness_are_far_closer_to_all_nodes_than_one(
     monkeypatch, coarse_yaml, coarse_files
 ):
     """On a coarse mesh, with few steps and rods."""
-    monkeypatch.setattr(nodes, "STATIONS", 12)
-    (calm, *_) = [case.scene for case in cases(EXPERIMENT) if case.label == "calm"]
-    few = calm.but(rounds=10, liner__rods_per_round=509, integrator__steps_per_round=512)
+    (calm, *_) = [case.scene for case in cases(EXPERIMENT) if case.label == "resonance"]
+    few = calm.but(
+        rounds=8,
+        record__spectrum_rounds=1,
+        liner__rods_per_round=1021,
+        integrator__steps_per_round=1024,
+    )
+    monkeypatch.setattr(nodes, "STRIPS", 8)
+    monkeypatch.setattr(nodes, "MODELS", ((8, 1), (8, 2)))
+    monkeypatch.setattr(nodes, "OVER_F1", {"calm": few.speeds.over_f1})
     scenes = {"calm": few.model_dump(mode="json")}
-    alone, row = nodes.numbers(coarse_files, coarse_yaml, scenes)
-    assert row["scene"] == alone["scene"] == "calm" and row["nodes"] == alone["nodes"] > 3 * 8
-    assert alone["moving"] == "on their own"
-    for found in (alone, row):
-        assert all(0 < abs(found[key]) < 0.3 for key in ("amplitude", "wear", "volume"))
+    one, two = nodes.numbers(coarse_files, coarse_yaml, scenes)
+    assert (one["across"], two["across"]) == (1, 2) and one["nodes"] > 3 * 8
+    assert all(abs(two[key]) < 0.3 * abs(one[key]) for key in ("wear", "volume"))
+    assert abs(one["volume"]) > 0.05 and abs(two["volume"]) < 0.02

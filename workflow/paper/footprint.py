@@ -88,7 +88,8 @@ def into_fresh(path: str | Path, rom: Rom) -> Footprint:
         raise FootprintError(f"{path}: its tip is flat: use a scene with contact.profile")
     scene = scene.but(contact__tangential=False)  # no tangential DoFs are needed
     strips = prepare(scene, rom, scene.speeds.omega(rom.f1)[0]).strips
-    ends = [profile_at(strips.tip, s)[0] for s in (-strips.tip.half, strips.tip.half)]
+    half = strips.tip.half[STRIP]
+    ends = [profile_at(strips.tip, STRIP, s)[0] for s in (-half, half)]
     gap, fresh = float(given_gaps(scene.gaps, rom, LEADING)), np.zeros(strips.d.size)
     u_r = strips.g0[STRIP] + min(PRESSED * max(ends), DEEPEST * gap)
     return footprint(strips, gap, place(strips, 0), fresh, 0.0, u_r)
@@ -123,9 +124,9 @@ def footprint(
     k = strips.partly_covered + np.arange(-BESIDE, strips.rods_covered + 1 + BESIDE)
     rods = (first + k) % strips.d.size
     s = np.array([pitch * offset(strips, i, passed) for i in k])
-    part = np.array([covered_part(strips, i, passed) for i in k])
-    middle = [pitch * covered_middle(strips, i, passed) for i in k]
-    p, slope = np.array([profile_at(strips.tip, arc) for arc in middle]).T
+    part = np.array([covered_part(strips, STRIP, i, passed) for i in k])
+    middle = [pitch * covered_middle(strips, STRIP, i, passed) for i in k]
+    p, slope = np.array([profile_at(strips.tip, STRIP, arc) for arc in middle]).T
     delta = np.where(part > 0, u_r - p + a * strips.d[rods] - g0, 0.0)
     sigma = [
         law.stress(law.parameters, deep / l, before)[0] if deep > 0 else 0.0
@@ -133,8 +134,8 @@ def footprint(
     ]
     unworn = -a * strips.d[rods] / gap
     worn = unworn + l * eps_p[rods] / gap
-    along = np.linspace(-0.5, 0.5, OUTLINE) * strips.length * pitch
-    surface = [(u_r - g0 - profile_at(strips.tip, arc)[0]) / gap for arc in along]
+    along = np.linspace(-0.5, 0.5, OUTLINE) * strips.length[STRIP] * pitch
+    surface = [(u_r - g0 - profile_at(strips.tip, STRIP, arc)[0]) / gap for arc in along]
     columns = {
         "s": s,
         "begin": np.clip(s - pitch / 2, along[0], along[-1]),

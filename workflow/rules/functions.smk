@@ -112,12 +112,8 @@ def scene_of_interface(wildcards):
 
 
 def scenes_of_nodes(wildcards):
-    """Scenes of the default row of the study of the interface, without a tilted tip."""
-    return {
-        case.label: case.scene.model_dump(mode="json")
-        for case in cases_of("interface")
-        if case.row == "default" and case.label in ("calm", "resonance", "stiff")
-    }
+    """Scenes of the comparison with contact at every node."""
+    return {name: SCENES[name].model_dump(mode="json") for name in ("paper-e1", "paper-e10")}
 
 
 def further_files():
@@ -176,7 +172,7 @@ def folders_of_targets(wildcards):
         ],
         "paper_beyond": [f"paper/{name}" for name in BEYOND],
         "paper_uncertainty": ["paper-rich", "experiments/repeats"],
-        "paper_causes": ["paper-nonlinear", "paper-wide", "experiments/causes"],
+        "paper_causes": ["paper-nonlinear", "paper-wide", "paper-edges", "experiments/causes"],
         "paper_rotor37": ["rotor37-fast", "rotor37-fast-points", "experiments/rotor37"],
     }
     return {target: [f"results/{name}" for name in names] for target, names in folders.items()}

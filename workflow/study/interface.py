@@ -23,6 +23,12 @@ BARS = {  # largest changes allowed from row to row, by observable
 }
 DEFAULT = "default"  # row whose difference from its twin is shown
 SHOWN = ("wear", "volume", "amplitude", "Omega_c", "force")  # in the tables
+AGAINST_NODES = {  # columns of the comparison with every node of the tip
+    "deepest": "deepest wear",
+    "volume": "volume",
+    "amplitude": "amplitude",
+    "wear": "wear, place by place",
+}
 MESHES = (  # each mesh with the next finer one, and whether their difference is judged
     ("reference-coarse", "reference", False),
     ("reference", "reference-fine", True),
@@ -101,7 +107,7 @@ def table(study: Row) -> str:
         "Compliance at the strips, between meshes": compliances(study),
         "Results": results(study),
         "Largest stress away from clamp and contact": stress(study),
-        "All nodes of the tip as interface": all_nodes(study),
+        "All nodes of the tip as interface": all_nodes(study["all_nodes"]),
     }
     return "\n\n".join(f"## {title}\n\n{text}" for title, text in parts.items()) + "\n"
 
@@ -167,18 +173,24 @@ def stress(study: Row) -> str:
     return markdown.table(["change", "away from clamp and contact", "anywhere"], rows)
 
 
-def all_nodes(study: Row) -> str:
-    """The default against contact at every node of the tip, moving freely or with the patches."""
-    rows = [
+def all_nodes(rows: list[Row]) -> str:
+    """Rows across the thickness and patches against every node of the tip: medians over speeds."""
+    models: dict[tuple, list[Row]] = {}
+    for row in rows:
+        models.setdefault((row["scene"], row["across"], row["patches"]), []).append(row)
+    lines = [
         [
-            r["scene"],
-            r["moving"],
-            markdown.percent(r["wear"]),
-            *(f"{100 * r[key]:+.2g} %" for key in ("volume", "amplitude")),
+            *map(str, model),
+            str(len(at_speeds)),
+            *(
+                markdown.percent(float(np.median([abs(row[key]) for row in at_speeds])))
+                for key in AGAINST_NODES
+            ),
         ]
-        for r in study["all_nodes"]
+        for model, at_speeds in models.items()
     ]
-    return markdown.table(["scene", "nodes move", "wear", "volume", "amplitude"], rows)
+    head = ["scene", "rows across", "patches, strips", "speeds", *AGAINST_NODES.values()]
+    return markdown.table(head, lines)
 
 
 def _share(value: float | None, bar: float | None) -> str:

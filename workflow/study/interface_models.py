@@ -45,7 +45,7 @@ def numbers(files: Any, blade: str, scene: Row) -> list[Row]:
     solid = read_solid(str(files.mesh), settings.material)
     name, rows = fom.provenance.blade, []
     for patches in PATCHES[name]:
-        interface = interface_of(solid, settings.but(interface={"patches": patches}))
+        interface = interface_of(solid, settings.but(interface__patches=patches))
         matrices = replace(fom, S=interface.S, xi=interface.xi)
         model = reduce(matrices, settings.basis, "r")
         rows.append(_row(matrices, solid, *model))

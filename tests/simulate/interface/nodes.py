@@ -1,164 +1,139 @@
-"""Contact at every node of the tip, on a coarse mesh, as a reference for patches and strips.
+"""Contact at every node of the tip: a reference for patches, strips, and rows across the thickness.
 
-Each node is in contact with rods of its own, for its share of the tip's area. Nodes at one station
-of the chord pass over the same liner: after every round its wear is the deepest of all of them.
-This model includes tilt and torsion across the thickness, which the patches average out. A second
-model, in which each node moves with the patches, has the same places and areas but no tilt: it
-separates the two causes of a difference.
+All nodes of the tip are the interface of a reduced model of their own. Over each strip it is
+sampled by the shape functions of the facets at places across the thickness, at equal z, both edges
+among them; between these the tip is linear. All places of a strip wear its one row of the liner
+within the step. The march is that of the tests' independent program, in plain NumPy.
 """
 
-from dataclasses import dataclass, replace
-from pathlib import Path
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csr_matrix, identity
+from scipy.sparse import identity
 
-from fem.interface import at_places, quadrature
+from fem.interface import at_places, interface_of
 from fem.matrices import Matrices
 from fem.solid import Solid, read_solid
 from geometry.blade import Blade
-from geometry.hats import hats, middles
-from geometry.interface import tip_of
-from geometry.tip import on_line
+from geometry.hats import middles
+from geometry.interface import on_facets, tip_of
+from geometry.tip import cartesian, on_line
 from rom.model import Rom
 from rom.reduce import reduce
-from simulate.contact.places import Places
-from simulate.errors.observables import Observables, error, observables
-from simulate.errors.run import Case as Prepared, Run
-from simulate.marching import Setup, march, prepare
-from simulate.marching.piecewise_exact import gain
-from simulate.marching.setup import strips_under
-from simulate.scene import LEADING, Record, Scene
-from workflow.study.trade import Row, amplitude
+from simulate.contact.places import by_share, volume_of
+from simulate.errors.observables import error
+from simulate.errors.signals import on_rods
+from simulate.marching import march, prepare
+from simulate.scene import LEADING, Scene
+from tests.simulate.peer import piecewise_exact
+from workflow.study.trade import Row
 
-STATIONS = 24  # intervals of the chord; nodes of the tip are 2.5 mm apart
-
-
-@dataclass(frozen=True)
-class Nodes:
-    """The nodes of the tip as the interface."""
-
-    S: csr_matrix  # (3 nodes, n_full), their radial, tangential and axial displacements
-    places: Places  # of the width of each node's share of the area at its station, times ``across``
-    across: float  # mean number of nodes across the thickness
-    station: NDArray[np.int64]  # (nodes,), the nearest, from 0
+STRIPS = 16  # of the reference
+PLACES = 7  # across the thickness
+RODS = 4  # times those of the scene
+OVER_F1 = {  # speeds; of paper-e10 those of the peak of EO 4
+    "paper-e1": (0.325, 0.33, 0.335, 0.34, 0.345, 0.35),
+    "paper-e10": (0.355, 0.362, 0.37, 0.374, 0.378, 0.382, 0.39, 0.398),
+}
+MODELS = tuple((patches, across) for across in (1, 2) for patches in (8, 16, 32))
 
 
-class Moves(NamedTuple):
-    """A reduced model, and how its coordinates move the nodes and xi = 1/16."""
+class Reference(NamedTuple):
+    """A model whose interface is every node of the tip, and its places over strips."""
 
     rom: Rom
-    at_nodes: NDArray[np.float64]  # (nodes, n)
-    at_leading: NDArray[np.float64]  # (1, n)
+    P: NDArray[np.float64]  # (places, strips, n), their radial displacements
+    leading: NDArray[np.float64]  # (1, n), at xi = 1/16, in the middle of the thickness
+    sides: NDArray[np.float64]  # (2, strips), rad, angles of the edges
+
+
+class Result(NamedTuple):
+    """Outputs that are compared."""
+
+    deepest: float  # m, worn depth
+    wear: NDArray[np.float64]  # (eighths of the chord, rods), m
+    volume: float  # m3
+    amplitude: float  # m, of xi = 1/16 in the last revolution
 
 
 def numbers(files: Any, blade: str, scenes: dict[str, Row]) -> list[Row]:
-    """The default interface against all nodes, moving freely and then with the patches.
+    """Errors of patches in one row and two across the thickness against contact at every node.
 
-    For the blade in the file ``blade``, from ``files.matrices`` and ``files.mesh``.
+    For the blade in the file ``blade``, from ``files.matrices`` and ``files.mesh``, in ``scenes``
+    at ``OVER_F1``; strips are as many as patches. The tip rubs the arc that it covers in all.
     """
     settings, fom = Blade.load(blade), Matrices.load(files.matrices)
-    nodes, leading = _nodes(settings, fom.camber, files.mesh), np.array([LEADING])
-    xi = nodes.places.xi
-    rom, _ = reduce(fom, settings.basis, "r")
-    of_nodes, T = reduce(replace(fom, S=nodes.S, xi=xi), settings.basis, "r")
-    at_leading = hats(leading, rom.xi) @ (fom.rows("r") @ T)
-    moving = {
-        "on their own": Moves(of_nodes, np.eye(len(xi), of_nodes.n), at_leading),
-        "as the patches": Moves(rom, rom.rows(xi), rom.rows(leading)),
-    }
-    rows = []
+    solid = read_solid(str(files.mesh), settings.material)
+    of_nodes, rows = reference(settings, fom, solid), []
+    models = {model: of_patches(settings, fom, solid, *model) for model in MODELS}
     for name, values in scenes.items():
-        case = Scene(**values).but(blade=rom.provenance.blade)
-        (Omega,) = case.speeds.omega(rom.f1)
-        default = observables(Prepared(case, rom, prepare(case, rom, Omega)).march())
-        for how, moves in moving.items():
-            full = _march(case, rom, Omega, moves, nodes)
-            of = {"scene": name, "nodes": len(xi), "moving": how}
-            rows.append(of | _changes(default, full))
+        record = {"samples_per_round": values["record"]["samples_per_round"]}
+        case = Scene(**values).but(record=record, peaks=None, twin=False, liner__footprint_m=None)
+        for over_f1 in OVER_F1[name]:
+            true = by_nodes(case, of_nodes, over_f1)
+            for (patches, across), rom in models.items():
+                found = by_patches(case.but(liner__strips=patches), rom, over_f1)
+                of = {"scene": name, "over_f1": over_f1, "patches": patches, "across": across}
+                rows.append(of | {"nodes": len(of_nodes.rom.xi)} | _changes(found, true))
     return rows
 
 
-def _nodes(blade: Blade, camber: NDArray[np.float64], mesh: str | Path) -> Nodes:
-    solid = read_solid(str(mesh), blade.material)
+def reference(blade: Blade, fom: Matrices, solid: Solid) -> Reference:
+    """The model of all nodes of the tip, and its places over ``STRIPS`` strips."""
     points, used = solid.V.tabulate_dof_coordinates(), np.unique(solid.tip)
-    xi = np.clip(tip_of(solid.tip, points).xi(points[used]), 0, 1)
-    x, y, _ = points[used].T
+    tip = tip_of(solid.tip, points)
     S = at_places(identity(len(points), format="csr")[used], points[used], solid.free)
-    station = np.round(xi * STATIONS).astype(int)
-    area, across = node_areas(solid)[used], len(used) / (STATIONS + 1)
-    there = np.bincount(station, area, STATIONS + 1)
-    width = np.diff(on_line(camber, _ends())[:, 2])[station] * (area / there[station]) * across
-    radius, theta = np.hypot(x, y), np.arctan2(y, x)
-    return Nodes(S, Places(np.array([0.0, 1.0]), xi, radius, theta, width, 0 * xi), across, station)
+    rom, _ = reduce(replace(fom, S=S, xi=tip.xi(points[used])), blade.basis, "r")
+    line = on_line(fom.camber, np.append(middles(STRIPS), LEADING))
+    behind, ahead = tip.at_z(line[:, 2])
+    theta = np.linspace(behind, ahead, PLACES)
+    places = [cartesian(np.column_stack([line[:, 0], at, line[:, 2]])) for at in theta]
+    nodes, values, _ = on_facets(points, solid.tip, tip, np.concatenate(places))
+    rows = np.zeros((len(nodes), rom.n))
+    np.put_along_axis(rows, np.searchsorted(used, nodes), values, axis=1)
+    rows = rows.reshape(PLACES, -1, rom.n)
+    sides = np.stack([behind, ahead])
+    return Reference(rom, rows[:, :-1], rows[PLACES // 2, -1:], sides[:, :-1])
 
 
-def _ends() -> NDArray[np.float64]:
-    """Chord fractions halfway between the stations, and both ends (STATIONS + 2,)."""
-    return np.concatenate([[0], middles(STATIONS), [1]])
+def of_patches(blade: Blade, fom: Matrices, solid: Solid, patches: int, across: int) -> Rom:
+    """The model of so many patches, with one row or two across the thickness."""
+    of = interface_of(solid, blade.but(interface={"patches": patches, "across": across}))
+    return reduce(replace(fom, **vars(of)), blade.basis, "r")[0]
 
 
-def _march(case: Scene, rom: Rom, Omega: float, moves: Moves, nodes: Nodes) -> Observables:
-    """March round by round; after each, the liner of a station is worn as by its deepest node.
-
-    The footprint is divided by the mean number of nodes across the thickness and the widths are
-    multiplied by it: the areas are kept.
-    """
-    footprint = case.liner.footprint_m / nodes.across
-    samples = case.record.samples_per_round
-    record = Record(samples_per_round=samples, history={"chord": [LEADING]}, end=True)
-    narrow = case.but(rounds=1, record=record, liner__footprint_m=footprint)
-    setup = _setup(narrow, rom, Omega, moves, nodes.places)
-    left, u_r = None, []
-    for _ in range(case.rounds):
-        done = march(narrow, setup, left)
-        u_r.append(done.u_r)
-        worn = np.zeros((STATIONS + 1, case.liner.rods_per_round))
-        np.maximum.at(worn, nodes.station, done.final.eps_p)
-        left = replace(done.final, eps_p=worn[nodes.station])
-    wear = case.liner.thickness_m * worn
-    whole = replace(done, u_r=np.concatenate(u_r), wear=wear, ends=_ends())
-    return observables(Run(case, rom, setup, outcome=whole))
+def by_nodes(scene: Scene, of: Reference, over_f1: float) -> Result:
+    """March the scene with contact at every node."""
+    nu = RODS * (scene.liner.nu + 1) - 1
+    fine = scene.but(liner__strips=STRIPS, liner__rods_per_round=nu)
+    Omega, steps = over_f1 * of.rom.omega1, fine.stepping.steps_per_round
+    count = steps * fine.rounds
+    there = piecewise_exact(of.rom, fine, Omega, steps, count, of.P, of.leading, of.sides)
+    return _result(of.rom, fine, there.wear, there.out)
 
 
-def _setup(scene: Scene, rom: Rom, Omega: float, moves: Moves, places: Places) -> Setup:
-    """The set-up of the scene with contact at other places than the strips."""
-    setup = prepare(scene, rom, Omega)
-    omega, Phi = moves.rom.modes(Omega)
-    Phi_b = moves.at_nodes @ Phi
-    compliance = Phi_b**2 @ gain(omega, scene.damping_ratio, setup.h)
-    return replace(
-        setup,
-        omega=omega,
-        Phi=Phi,
-        Phi_b=Phi_b,
-        Phi_out=moves.at_leading @ Phi,
-        Phi_timing=Phi[:0],
-        places=places,
-        strips=strips_under(scene, rom, places, setup.Omega, setup.steps, compliance),
-        bound=np.inf,
-    )
+def by_patches(scene: Scene, rom: Rom, over_f1: float) -> Result:
+    """March the scene on patches."""
+    outcome = march(scene, prepare(scene, rom, over_f1 * rom.omega1))
+    return _result(rom, scene, outcome.wear, outcome.u_r[-scene.record.samples_per_round :])
 
 
-def _changes(own: Observables, full: Observables) -> Row:
-    """Relative differences of the default interface from all nodes; of wear the error in L2."""
+def _result(rom: Rom, scene: Scene, wear: NDArray[np.float64], u_r: NDArray[np.float64]) -> Result:
+    ends = np.linspace(0, 1, len(wear) + 1)
+    line = rom.line(ends)
+    widths, radius = np.diff(line[:, 2]), rom.line(middles(len(wear)))[:, 0]
+    volume = float(volume_of(wear.mean(axis=1), widths, radius))
+    return Result(float(wear.max()), by_share(wear, ends), volume, float(np.ptp(u_r)) / 2)
+
+
+def _changes(found: Result, true: Result) -> Row:
+    """Relative differences; of wear the error in L2."""
+    wear = on_rods(found.wear, true.wear.shape[1])
     return {
-        "amplitude": amplitude(own) / amplitude(full) - 1,
-        "wear": error(own["wear"], full["wear"]),
-        "volume": float(own["wear"].mean() / full["wear"].mean()) - 1,
+        "deepest": found.deepest / true.deepest - 1,
+        "wear": error(wear, true.wear),
+        "volume": found.volume / true.volume - 1,
+        "amplitude": found.amplitude / true.amplitude - 1,
     }
-
-
-def node_areas(solid: Solid) -> NDArray[np.float64]:
-    """Area (nodes,), m2, of the tip that belongs to each node of the mesh.
-
-    In proportion to the diagonal of the facets' mass matrices (Hinton, Rock and Zienkiewicz 1976),
-    since the integrals of the corners' shape functions are zero.
-    """
-    points, facets = solid.V.tabulate_dof_coordinates(), solid.tip
-    _, dA, values = quadrature(points[facets])
-    diagonal = dA @ values**2
-    shares = dA.sum(axis=1, keepdims=True) * diagonal / diagonal.sum(axis=1, keepdims=True)
-    return np.bincount(facets.ravel(), shares.ravel(), len(points))

@@ -1,0 +1,248 @@
+"""Contact across the thickness of the tip: closed forms, the way from one row to two, energies."""
+
+from dataclasses import replace
+
+import numba
+import numpy as np
+import pytest
+from scenes import RUBBING, of_steps, scene
+from systems import Parameters, strips as strips_of
+from test_interface_force import ROUND_OFF, compliance
+
+from fem.interface import interface_of
+from fem.solid import read_solid
+from geometry.project import UserError
+from rom.model import Rom, RomError
+from rom.reduce import reduce
+from simulate.contact.compiled import for_types_of
+from simulate.contact.interface_force import new_solver, solve
+from simulate.contact.places import strip_places
+from simulate.contact.rods import contact_force, cover, nothing_covered, press
+from simulate.contact.strips import covered_middle, covered_part, leverage
+from simulate.marching import check_scene, march, prepare
+from simulate.marching.friction import solve_sliding
+from simulate.marching.modal import Step
+from simulate.sweeps.plausible import doubts
+
+SUBTRIANGLES = [(0, 3, 5), (3, 1, 4), (5, 4, 2), (3, 4, 5)]  # of six nodes, VTK's order
+LENGTH, WIDTH, THICKNESS = 4e-3, 2.5e-3, 5e-3  # m, of the footprint, the strip, the liner
+LAW = Parameters(E=3.54e9, K=1.6107e9, sigma_Y=0.0)
+# mean penetration and half of the lean, um; forces on the edges behind and ahead, N
+SLIDING = (
+    (20, 0, 22.140206, 22.140206),
+    (20, -10, 25.830241, 18.450172),
+    (20, 10, 2.435740, 13.142291),
+    (5, -10, 9.340399, 3.113466),
+    (5, 10, 0.304468, 3.590040),
+)
+
+
+def leaning(rods, advance):
+    """One strip whose footprint has so many rods, which passes ``advance`` rods in a step."""
+    nu = 8 * int(np.ceil(rods + advance))
+    area, pitch = WIDTH * LENGTH / rods, LENGTH / rods
+    system = strips_of(
+        LAW, np.zeros(1), np.zeros(nu), length=rods, advance=advance, area=area, pitch=pitch,
+        thickness=THICKNESS,
+    )  # fmt: skip
+    return system._replace(rows=(0.0, 0.0))
+
+
+@numba.njit
+def slide(system, covered, eps_p, w, lean, steps, energies, force):
+    for n in range(1, steps + 1):
+        now = Step(n, 1.0, 1.0, 0, 0, 0)
+        cover(system, covered, eps_p, 0, now, w, w, lean, lean, 0.0, 0.0, True, energies)
+        total, _, moment, _ = press(system, covered, eps_p, 0, w, w, lean, lean, energies)
+        force[n - 1, 0], force[n - 1, 1] = total / 2 - moment, total / 2 + moment
+
+
+def slid(rods, w, half, advance):
+    """Forces (2,) on both edges of a rigid tip that slid on, N, and depths that it left, m."""
+    system = leaning(rods, advance)
+    steps = int(1.5 * rods / advance)
+    eps_p, force, energies = np.zeros((1, system.d.size)), np.zeros((steps, 2)), np.zeros(7)
+    arguments = system, nothing_covered(system), eps_p, w, 2 * half, steps, energies, force
+    for_types_of(slide, *arguments)(*arguments)
+    first = int(rods) + 2  # rods before were under the tip when it began
+    return force[-1], THICKNESS * eps_p[0, first : int(steps * advance) - 2]
+
+
+@pytest.mark.parametrize("case", SLIDING, ids=lambda case: f"{case[0]} um, {case[1]:+} um")
+def test_a_rigid_tip_that_leans_slides_on_fresh_liner_with_the_forces_of_the_closed_form(case):
+    """Behind deeper the rods load on; ahead deeper they arrive at the deepest, and unload."""
+    w, half, *edges = case
+    force, depth = slid(128, 1e-6 * w, 1e-6 * half, 1.0)
+    assert force == pytest.approx(edges, abs=2e-4 * sum(edges), rel=6e-4)
+    deepest = 1e-6 * (w + abs(half))
+    assert depth == pytest.approx(LAW.E / (LAW.E + LAW.K) * deepest, rel=1e-12)
+
+
+def test_the_error_of_the_closed_form_falls_with_the_square_of_the_rods():
+    """At eight places of the rods under the tip, the largest."""
+    *_, exact = np.array(SLIDING[2:])
+    errors = []
+    for rods in (32, 64, 128):
+        found = [slid(rods + part, 5e-6, 10e-6, 1.0)[0] for part in np.arange(8) / 8]
+        errors.append(max(abs(np.array(found) - exact[2:]).max(axis=1)))
+    assert np.log2(errors[0] / errors[-1]) / 2 == pytest.approx(2, abs=0.1), errors
+
+
+@pytest.mark.parametrize("rods", [1.0, 1.6, 2.4, 7.3])
+def test_levers_have_the_moment_of_a_footprint_wherever_the_blade_is(rods):
+    """Sum of the parts times lever 0, times lever^2 a twelfth of the footprint."""
+    system = leaning(rods, 1.0)
+    window = system.rods_covered + 1 + 2 * system.partly_covered
+    for passed in np.linspace(0, 1, 23)[:-1]:
+        part = np.array([covered_part(system, 0, k, passed) for k in range(window)])
+        middle = np.array([covered_middle(system, 0, k, passed) for k in range(window)])
+        lever = leverage(system, 0, passed) * middle / rods
+        assert part @ lever == pytest.approx(0, abs=1e-12)
+        if rods > 1:
+            assert part @ lever**2 == pytest.approx(rods / 12, rel=1e-12)
+
+
+def rub(steps=1024, **more):
+    """A scene whose tip rubs the arc that it covers."""
+    exact = {"integrator": of_steps(steps), "liner__rods_per_round": 1021}
+    return scene(**RUBBING | exact | {"rounds": 4, "liner__footprint_m": None} | more)
+
+
+@pytest.mark.parametrize("slides", [False, True])
+@pytest.mark.parametrize("decade", range(-12, 13, 3))
+def test_force_and_moment_are_those_of_the_rods_where_they_leave_the_strips(decade, slides):
+    """Stiffness times compliance over 24 decades, random levers; sliding: C as without friction."""
+    for seed in range(40):
+        rng = np.random.default_rng([seed, decade + 12])
+        nodes, m = rng.integers(1, 9), rng.integers(1, 7)
+        E = 10.0**decade / m
+        law = Parameters(E, E * rng.choice([0, 0.5, 10]), E * rng.choice([1e-3, 0.1]))
+        system = strips_of(law, np.zeros(nodes), np.zeros(m), length=m)
+        system = system._replace(rows=(0.0, 0.0), w_end=np.full(nodes, rng.choice([0, 0.1, 1])))
+        solver, covered = new_solver(nodes, 2), nothing_covered(system)
+        solver.C[:] = compliance(rng, 2 * nodes, 10 ** rng.uniform(0, 6))
+        at, rods, shape = solver.unknowns, covered.rods[:, :m], (nodes, m)
+        covered.strips["high"], covered.lever[:, :m] = m, rng.uniform(-0.6, 0.6, shape)
+        at["strip"] = np.repeat(np.arange(nodes), 2)
+        at["v"] = v = rng.normal(size=2 * nodes) * rng.choice([0.1, 1, 10])
+        at["top"], rods["part"] = np.inf, 1
+        rods["delta_0"] = depth = rng.normal(size=shape) * rng.choice([0.01, 0.3, 1])
+        rods["start"] = -1.0  # no rod bears at the start of the step
+        rods["eps_p"] = rods["after"] = np.maximum(rng.uniform(-0.5, 0.5, shape), 0)
+        soft = np.full(nodes, 1 / (E * m))
+        arguments = (
+            (system, covered, soft, solver, nodes) if slides else (system, covered, solver, nodes)
+        )
+        assert for_types_of((solve_sliding if slides else solve).outer, *arguments)(*arguments)
+        w, F = at["w"].reshape(-1, 2), solver.F
+        scale = abs(v) + abs(solver.C) @ abs(F) + abs(depth).max()
+        assert (abs(at["w"] - (v - solver.C @ F)) <= ROUND_OFF * scale).all()
+        of_rods = np.array([contact_force(system, covered, i, *w[i]) for i in range(nodes)])
+        k = abs(of_rods[:, 3:]).sum(axis=1).repeat(2)
+        found = of_rods[:, [0, 2]].ravel()
+        assert (abs(found - F) <= 4 * ROUND_OFF * scale * k + 1e-11 * found[::2].repeat(2)).all()
+
+
+def test_two_rows_that_are_equal_are_one(edges_rom):
+    """A lean of 0 in all modes: the numbers of one row, for a flat tip and for a rounded one."""
+    for more in ({}, {"contact__profile": {"tilt": 0.01, "edge_drop_m": 1e-6}}):
+        case = rub(**more)
+        two = prepare(case, edges_rom, edges_rom.omega1 * 0.34)
+        two = replace(two, Phi_lean=0 * two.Phi_lean)
+        of_one = two.strips._replace(rows=(0.0,))
+        one = march(case, replace(two, Phi_lean=two.Phi[:0], strips=of_one))
+        both = march(case, two)
+        assert one.contact_share > 0.05
+        assert both.wear == pytest.approx(one.wear, rel=1e-12, abs=1e-12 * one.wear.max())
+        assert both.u_r == pytest.approx(one.u_r, rel=1e-12, abs=1e-12 * np.ptp(one.u_r))
+        assert both.force_mean == pytest.approx(one.force_mean, rel=1e-11)
+
+
+SETS = {
+    "flat": {},
+    "rounded": {"contact__profile": {"tilt": 0.0, "edge_drop_m": 2e-6}},
+    "tangential": {
+        "contact__profile": {"tilt": 0.01, "edge_drop_m": 2e-6},
+        "contact__tangential": True,
+    },
+    "friction": {"contact__friction": 0.15},
+}
+
+
+@pytest.mark.parametrize("of", SETS)
+def test_no_energy_is_created_and_its_error_falls_with_the_step(edges_rom, of):
+    """Over the casing's work, at most 2e-5 with 4096 steps.
+
+    Normals that change within the step create some with tangential forces, in one row as in two.
+    """
+    errors = []
+    for steps in (4096, 16384):
+        case = rub(steps, **SETS[of])
+        run = march(case, prepare(case, edges_rom, edges_rom.omega1 * 0.34))
+        ledger = run.ledger
+        assert run.status == "ok" and run.facts.unsolved == 0 and run.contact_share > 0.05
+        blade = ledger.blade - ledger.blade_before + ledger.damping
+        assert blade == pytest.approx(ledger.work, rel=1e-9)
+        errors.append(ledger.numerical / ledger.casing)
+    assert abs(errors[1]) < abs(errors[0]) < 2e-5
+    assert max(errors) <= 1e-12 or of == "tangential"
+
+
+def test_central_differences_and_piecewise_exact_agree_across_the_thickness(edges_rom):
+    case = rub(4096)
+    setup = prepare(case, edges_rom, edges_rom.omega1 * 0.33)
+    stepped = case.but(integrator={"scheme": "central-difference", "fraction_of_limit": 0.1})
+    by_steps = march(stepped, prepare(stepped, edges_rom, setup.Omega))
+    exact = march(case, setup)
+    assert by_steps.wear.mean() == pytest.approx(exact.wear.mean(), rel=0.02)
+    assert np.ptp(by_steps.u_r) == pytest.approx(np.ptp(exact.u_r), rel=0.01)
+
+
+def test_a_rigid_casing_asks_for_one_row(edges_rom):
+    for liner in ({"liner__law": {"kind": "rigid"}}, {"liner__worn_through": "casing"}):
+        case = rub(**liner)
+        with pytest.raises(UserError, match="across: 1"):
+            check_scene(case, edges_rom)
+
+
+def test_the_footprint_is_the_arc_that_the_tip_covers(solid, edges_rom, coarse_rom):
+    """Its sum over the widths is the area of the tip that is seen along the radius."""
+    places = strip_places(edges_rom, scene(liner__strips=16).liner, scene().casing)
+    x, y, z = np.moveaxis(solid.V.tabulate_dof_coordinates()[solid.tip[:, SUBTRIANGLES]], -1, 0)
+    arc = np.hypot(x, y) * np.arctan2(y, x)
+    (a, b, c), (d, e, f) = np.moveaxis(arc, -1, 0), np.moveaxis(z, -1, 0)
+    area = abs((b - a) * (f - d) - (c - a) * (e - d)).sum() / 2
+    assert places.footprint @ places.width == pytest.approx(area, rel=0.01)
+    given = scene(liner__footprint_m=4e-3)
+    assert (strip_places(coarse_rom, given.liner, given.casing).footprint == 4e-3).all()
+    assert "not used" in doubts(given, edges_rom)["liner.footprint_m"]
+    without = replace(coarse_rom, sides=np.empty((2, 0)))
+    with pytest.raises(RomError, match="footprint_m"):
+        strip_places(without, scene(liner__footprint_m=None).liner, given.casing)
+
+
+def test_gaps_at_rest_differ_between_the_edges_by_their_growth(edges_rom):
+    """The untwist of the blade leans its tip: prepare takes from each edge its own growth."""
+    wide = {f"clearance__{edge}_edge_over_span": 1e-3 for edge in ("leading", "trailing")}
+    case = rub(clearance__at="rest", **wide)
+    setup = prepare(case, edges_rom, edges_rom.omega1 * 0.3)
+    xi, n = setup.places.xi, len(edges_rom.xi)
+    behind, ahead = (
+        replace(edges_rom, across=1, growth=edges_rom.growth[:, part]).growth_at(xi, setup.Omega)
+        for part in (slice(None, n), slice(n, None))
+    )
+    assert abs(behind - ahead).max() > 1e-7
+    assert setup.strips.lean == pytest.approx(behind - ahead, rel=1e-9)
+
+
+@pytest.fixture(scope="module")
+def solid(coarse_blade, coarse_mesh):
+    return read_solid(str(coarse_mesh.mesh), coarse_blade.material)
+
+
+@pytest.fixture(scope="module")
+def edges_rom(solid, coarse_blade, coarse_matrices) -> Rom:
+    """The coarse blade with two rows across the thickness."""
+    patches = len(coarse_matrices.xi)
+    of = interface_of(solid, coarse_blade.but(interface={"patches": patches, "across": 2}))
+    return reduce(replace(coarse_matrices, **vars(of)), coarse_blade.basis)[0]
