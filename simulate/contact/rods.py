@@ -201,12 +201,14 @@ def fill(strips, covered, eps_p, i, low, high, fresh, w_before, w, lean_before, 
     strip, nu, profile = covered.strips[i], strips.d.size, strips.tip.half[i] > 0.0
     passed, half, g0, supplied = strip.passed, strip.moved, strips.g0[i], 0.0
     w_from, lean_from = (w_before, lean_before) if moves else (w, lean)
-    apex, per_length = apex_of(strips, i, lean), leverage(strips, i, passed) / strips.length[i]
+    apex, per_length, leans = apex_of(strips, i, lean), 0.0, len(strips.rows) == 2
+    if leans:
+        per_length = leverage(strips, i, passed) / strips.length[i]
     j = (strip.at + low) % nu
     for k in range(low, high):
         rod = covered.rods[i, k]
         rod.part = covered_part(strips, i, k, passed)
-        if len(strips.rows) == 2:
+        if leans:
             covered.lever[i, k] = per_length * covered_middle(strips, i, k, passed)
         rod.at_rest = strip.ramp * strips.d[j] - g0  # delta = -g
         rod.delta_0 = rod.delta_before = rod.at_rest
@@ -216,7 +218,7 @@ def fill(strips, covered, eps_p, i, low, high, fresh, w_before, w, lean_before, 
             rod.delta_before -= profile_at(strips.tip, i, middle + 2 * strips.placed * half)[0]
             rod.slope = profile_at(strips.tip, i, middle)[1]
         rod.eps_p = eps_p[i, j]
-        if strips.pitch[i] * offset(strips, k, passed) < apex:
+        if apex > -np.inf and strips.pitch[i] * offset(strips, k, passed) < apex:
             # the closest part of the tip has passed the rod, and has worn it before it bears
             rod.eps_p = worn_to(
                 strips, covered, i, k, w_from, w, lean_from, lean, 0.5, rod.eps_p, 0.0

@@ -41,7 +41,7 @@ def check_scene(scene: Scene, rom: Rom) -> None:
         *_model(scene.blade, scene.contact, [*scene.record.grids], directions, rom),
         *too_fast,
         *_slope(casing, rom, places.slope),
-        *_liner(liner, rom.camber[:, 0], float(places.footprint.min())),
+        *_liner(liner, rom.camber[:, 0], mean_footprint(liner, rom)),
         *_strips(liner, rom),
         *_gaps(scene.gaps, rom),
         *outgrown,

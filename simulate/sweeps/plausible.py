@@ -14,7 +14,6 @@ import xarray as xr
 from geometry.project import Caution
 from rom.model import Rom
 from simulate.contact.gaps import given_gaps
-from simulate.contact.places import given_footprint
 from simulate.scene import LEADING, Casing, Liner, Profile, Scene
 
 SLOWEST = 0.005  # over f1(0): below, no engine order up to 200 meets f1
@@ -136,21 +135,21 @@ def _of_tip(profile: Profile | None) -> list[Implausible]:
 def _of_liner(liner: Liner, rom: Rom) -> list[Implausible]:
     law, (r, theta, z) = liner.law, rom.camber.T
     chord = float(np.hypot(np.ptp(r * theta), np.ptp(z)))
-    deforms = law.touches and law.deforms
+    deforms, footprint = law.touches and law.deforms, liner.footprint_m or 0.0
     modulus = law.modulus if deforms else inf
     E, sigma_Y = getattr(law, "E", inf), getattr(law, "sigma_Y", 0.0)
     return [
         (
-            liner.footprint_m is not None and rom.across == 2,
+            footprint > 0 and rom.across == 2,
             "liner.footprint_m",
-            f"liner.footprint_m: {liner.footprint_m:g}: is not used with two rows across the "
+            f"liner.footprint_m: {footprint:g}: is not used with two rows across the "
             "thickness: the tip rubs the arc that it covers; take it out, or give the blade "
             "interface.across: 1",
         ),
         (
-            (given_footprint(liner, rom) or 0.0) > chord,
+            rom.across == 1 and footprint > chord,
             "liner.footprint_m",
-            f"liner.footprint_m: {liner.footprint_m:g}: longer than the chord of {chord:.3g} m; it "
+            f"liner.footprint_m: {footprint:g}: longer than the chord of {chord:.3g} m; it "
             "is the arc over which one strip of the tip rubs, some mm; is it in mm or cm?",
         ),
         (

@@ -5,12 +5,18 @@ from dataclasses import replace
 import numba
 import numpy as np
 import pytest
+from closing import closing, sides, tip_facets
+from peer import piecewise_exact
 from scenes import RUBBING, of_steps, scene
 from systems import Parameters, strips as strips_of
+from test_accuracy import TO_CHOOSE
 from test_interface_force import ROUND_OFF, compliance
+from test_start import go_on, made
 
 from fem.interface import interface_of
 from fem.solid import read_solid
+from geometry.hats import middles
+from geometry.interface import tip_of
 from geometry.project import UserError
 from rom.model import Rom, RomError
 from rom.reduce import reduce
@@ -19,9 +25,14 @@ from simulate.contact.interface_force import new_solver, solve
 from simulate.contact.places import strip_places
 from simulate.contact.rods import contact_force, cover, nothing_covered, press
 from simulate.contact.strips import covered_middle, covered_part, leverage
+from simulate.errors.accuracy import choose, march_to_accuracy
+from simulate.errors.model_errors import ModelError
+from simulate.errors.observables import differences
+from simulate.errors.run import Case
 from simulate.marching import check_scene, march, prepare
 from simulate.marching.friction import solve_sliding
 from simulate.marching.modal import Step
+from simulate.scene import LEADING
 from simulate.sweeps.plausible import doubts
 
 SUBTRIANGLES = [(0, 3, 5), (3, 1, 4), (5, 4, 2), (3, 4, 5)]  # of six nodes, VTK's order
@@ -198,6 +209,27 @@ def test_central_differences_and_piecewise_exact_agree_across_the_thickness(edge
     assert np.ptp(by_steps.u_r) == pytest.approx(np.ptp(exact.u_r), rel=0.01)
 
 
+@pytest.mark.slow
+def test_an_independent_program_agrees_on_rows_from_the_nodes(
+    edges_reduced, coarse_matrices, coarse_mesh
+):
+    """Edges cut, projected and marched by code of the tests alone."""
+    rom, T = edges_reduced
+    case = rub(2048, rounds=5, liner__rods_per_round=8191)
+    m, Omega = case.liner.m, 0.34 * rom.omega1
+    of, xi = tip_facets(coarse_mesh.mesh), np.append(middles(m), LEADING)
+    P = closing(of, coarse_matrices, T, xi, edges=True)
+    edges = sides(tip_of(of[1], of[0]).outline, rom.line(middles(m))[:, 2])
+    kept = P[:, m:].mean(axis=0)
+    their = piecewise_exact(rom, case, Omega, 2048, 5 * 2048, P[:, :m], kept, edges)
+    ours = march(case, prepare(case, rom, Omega))
+    assert ours.contact_share > 0.05
+    assert ours.wear.max() == pytest.approx(their.wear.max(), rel=5e-3)
+    assert ours.wear.mean() == pytest.approx(their.wear.mean(), rel=5e-3)
+    u_r = their.out[31::32, 0]  # at the samples of the last revolution
+    assert ours.u_r[-64:, 0] == pytest.approx(u_r, abs=5e-3 * np.ptp(u_r))
+
+
 def test_a_rigid_casing_asks_for_one_row(edges_rom):
     for liner in ({"liner__law": {"kind": "rigid"}}, {"liner__worn_through": "casing"}):
         case = rub(**liner)
@@ -235,14 +267,43 @@ def test_gaps_at_rest_differ_between_the_edges_by_their_growth(edges_rom):
     assert setup.strips.lean == pytest.approx(behind - ahead, rel=1e-9)
 
 
+def test_a_run_across_the_thickness_goes_on_to_the_last_bit(edges_rom, tmp_path):
+    case = made(liner__footprint_m=None, liner__rods_per_round=1021)
+    whole, first, then = go_on(case, edges_rom, tmp_path / "first.nc")
+    parts = [part["history"].values for part in (first, then)]
+    assert np.ptp(whole["history"].values) > 0
+    np.testing.assert_array_equal(np.concatenate(parts, axis=-1), whole["history"].values)
+    np.testing.assert_array_equal(then["end_eps_p"].values, whole["end_eps_p"].values)
+
+
+@pytest.mark.slow
+def test_an_accuracy_that_is_asked_for_holds_across_the_thickness(edges_rom):
+    """Against a quarter of the step and four times the rods on twice the strips."""
+    case = rub(**TO_CHOOSE, accuracy=0.1, speeds={"over_f1": [0.3, 0.33]})
+    choice = choose(case, edges_rom, ModelError(0.0, None))
+    for Omega in case.speeds.omega(edges_rom.f1):
+        own = march_to_accuracy(case, edges_rom, Omega, choice)
+        fine = own.scene.but(
+            liner__strips=2 * choice.strips, liner__rods_per_round=4 * choice.rods_per_round
+        )
+        finer = Case(fine, edges_rom, prepare(fine, edges_rom, Omega, 4 * own.setup.steps)).march()
+        found = differences(own, finer)
+        assert max(found.values()) < 0.1, found
+
+
 @pytest.fixture(scope="module")
 def solid(coarse_blade, coarse_mesh):
     return read_solid(str(coarse_mesh.mesh), coarse_blade.material)
 
 
 @pytest.fixture(scope="module")
-def edges_rom(solid, coarse_blade, coarse_matrices) -> Rom:
-    """The coarse blade with two rows across the thickness."""
+def edges_rom(edges_reduced) -> Rom:
+    return edges_reduced[0]
+
+
+@pytest.fixture(scope="module")
+def edges_reduced(solid, coarse_blade, coarse_matrices):
+    """The coarse blade with two rows across the thickness, and its basis."""
     patches = len(coarse_matrices.xi)
     of = interface_of(solid, coarse_blade.but(interface={"patches": patches, "across": 2}))
-    return reduce(replace(coarse_matrices, **vars(of)), coarse_blade.basis)[0]
+    return reduce(replace(coarse_matrices, **vars(of)), coarse_blade.basis)
