@@ -147,17 +147,18 @@ def solve_strip(strips, covered, i, z, c, top, F):
 
 
 @compiled
-def forces_of_leaning(strips, covered, solver, F, n):
-    """Forces and moments ``F`` at the places of the unknowns, with their slopes."""
-    slope, arm = solver.slope, solver.arm
-    for p in range(ZERO, n, TWO):
-        unknown, lean = solver.unknowns[p], solver.unknowns[p + ONE].w
-        force, _, moment, k, crossed, turning = contact_force(
+def forces_there(strips, covered, solver, F, n):
+    """Forces ``F`` at the places of the unknowns, with their slopes; of a lean the moments, too."""
+    leans, slope = len(strips.rows) == 2, solver.slope
+    for p in range(ZERO, n, TWO if leans else ONE):
+        unknown = solver.unknowns[p]
+        lean = solver.unknowns[p + ONE].w if leans else 0.0
+        F[p], _, moment, slope[p], crossed, turning = contact_force(
             strips, covered, unknown.strip, unknown.w, lean
         )
-        e = crossed / k if k > 0.0 else 0.0
-        F[p], slope[p], arm[p] = force, k, e
-        F[p + ONE], slope[p + ONE], arm[p + ONE] = moment, max(turning - e * crossed, 0.0), 0.0
+        if leans:
+            solver.arm[p] = e = crossed / slope[p] if slope[p] > 0.0 else 0.0
+            F[p + ONE], slope[p + ONE] = moment, max(turning - e * crossed, 0.0)
 
 
 @compiled
@@ -185,7 +186,7 @@ def residual_of_leaning(strips, covered, solver, n):
     """Residual F(v - C f) - f of the forces f, and the largest over its tolerance."""
     worst, blur, f = 0.0, ULP * strips.thickness, solver.F
     places_under_forces(solver, n)
-    forces_of_leaning(strips, covered, solver, solver.trial, n)
+    forces_there(strips, covered, solver, solver.trial, n)
     for p in range(n):
         at, force, slope = solver.unknowns[p], solver.trial[p], solver.slope[p]
         at.residual = force - f[p]
@@ -391,14 +392,7 @@ def misplaced(strips, covered, solver, n):
     """Forces F(w) with their slopes, and v - C F - w; the largest of these over its tolerance."""
     worst, blur = 0.0, ULP * strips.thickness
     F, slope, change = solver.F, solver.slope, solver.change
-    if len(strips.rows) == 1:
-        for p in range(n):
-            unknown = solver.unknowns[p]
-            F[p], _, _, slope[p], _, _ = contact_force(
-                strips, covered, unknown.strip, unknown.w, 0.0
-            )
-    else:
-        forces_of_leaning(strips, covered, solver, F, n)
+    forces_there(strips, covered, solver, F, n)
     for p in range(n):
         unknown = solver.unknowns[p]
         moved, terms, stiff = row_sums(solver.C, p, F, slope, n)
