@@ -398,7 +398,8 @@ class Blade(SettingsFile):
         given = self.interface.model_fields_set
         if self.of_points and (keys := [key for key in ("patches", "across") if key in given]):
             raise SettingsError(
-                "basis paper has points: give nodes and along, or points_mm",
+                "basis paper has points: give nodes and along, or points_mm; null takes out what "
+                "the base has",
                 key=f"interface.{keys[0]}",
             )
         if not self.of_points and (points := [key for key in OF_POINTS if key in given]):

@@ -163,7 +163,7 @@ def _rom(variables: dict[str, Any], blade: str, mesh: str) -> Rom:
         "points": np.empty((0, 3)),
         **{name: np.asarray(variables[name], float) for name in arrays if name in variables},
         **{name: float(variables.get(name, np.nan)) for name in ("Omega_m", "span", "f1")},
-        "across": int(variables.get("across", 1)),
+        "across": int(across) if (across := variables.get("across", 1)) in (1, 2) else 0,
     }
     directions = tuple(map(str, np.atleast_1d(variables["directions"])))
     # DoFs besides those of the interface
@@ -186,7 +186,10 @@ def _first_frequency(rom: Rom) -> float:
 
 def _shape_faults(rom: Rom, power: NDArray) -> list[str]:
     n, n_c = len(rom.M), rom.across * len(rom.xi)
-    held = (rom.M, rom.K, rom.xi, rom.points, rom.camber, rom.growth, rom.Omega_m, rom.span)
+    held = (
+        *(rom.M, rom.K, rom.xi, rom.points, rom.camber, rom.sides, rom.growth, rom.Omega_m),
+        rom.span,
+    )
     return failed(
         (
             rom.M.shape == (n, n) and rom.K.shape[1:] == (n, n) and rom.K.size > 0,
@@ -218,9 +221,12 @@ def _shape_faults(rom: Rom, power: NDArray) -> list[str]:
             f"slope {rom.slope.shape}: needs one for each place of camber",
         ),
         (
-            rom.across in (1, 2) and rom.sides.shape in ((2, 0), (2, len(rom.camber))),
-            f"across {rom.across}, sides {rom.sides.shape}: needs 1 or 2 rows across the "
-            "thickness, and angles of two sides at each place of camber",
+            rom.across == 1 or (rom.across == 2 and rom.sides.size > 0 and not rom.of_points),
+            "across: needs 1, or 2 for patches whose sides are given",
+        ),
+        (
+            rom.sides.shape in ((2, 0), (2, len(rom.camber))),
+            f"sides {rom.sides.shape}: need the angle of both at each place of camber",
         ),
         (
             all(not of.size or of.shape[1:] == (n_c,) for of in (rom.growth, rom.advance)),
@@ -285,12 +291,23 @@ def _tip_faults(rom: Rom) -> list[str]:
             f"xi: {xi[0]:g} to {xi[-1]:g}: nodes of hat functions begin at 0 and end at 1",
         ),
         (
+            not rom.sides.size or _about(rom.sides, rom.camber, chord),
+            "sides: need angles (rad) behind and ahead of those of camber, by half the chord at "
+            "most",
+        ),
+        (
             off[i] <= OFF_LINE * chord,
             f"points: point {i + 1} lies {1e3 * off[i]:.3g} mm from the camber line at its xi = "
             f"{xi[i]:.4g}; allowed {1e3 * OFF_LINE * chord:.3g} mm, a tenth of the chord",
         ),
         *tip_checks(rom.camber, rom.span, rom.Omega_m),
     )
+
+
+def _about(sides: NDArray[np.float64], camber: NDArray[np.float64], chord: float) -> np.bool:
+    """Whether ``sides`` lie behind and ahead of the ``camber`` line, near it."""
+    behind, ahead = (sides - camber[:, 1]) * camber[:, 0]
+    return np.all(behind < ahead) and max(-behind.min(), ahead.max()) < chord / 2
 
 
 def _compliances(rom: Rom) -> Iterator[str]:

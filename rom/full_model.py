@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from fem.cholesky import Cholesky
 from fem.matrices import CODE, Constants, Prestressed
-from geometry.hats import hat_nodes, hats, mean, middles, over_edges
+from geometry.hats import hat_nodes, mean, middles, over_edges
 from geometry.project import Provenance
 from geometry.stored import Stored, frozen, stored
 from geometry.tip import EDGES, on_line
@@ -115,10 +115,11 @@ def solve(
     )
 
 
-def compliance_of_strips(C: NDArray[np.float64]) -> NDArray[np.float64]:
+def compliance_of_strips(C: NDArray[np.float64], across: int = 1) -> NDArray[np.float64]:
     """Displacement (n,), m/N, of the middle of each of n strips under a unit load at it.
 
-    ``C`` (n, n): compliance of n patches in one direction.
+    ``C`` (across n, across n): compliance of n patches in one direction.
     """
-    P = hats(middles(len(C)), hat_nodes(len(C)))
+    n = len(C) // across
+    P = over_edges(middles(n), hat_nodes(n), mean(across))
     return np.diag(P @ C @ P.T)

@@ -16,6 +16,8 @@ from simulate.contact.compiled import FIRST, compiled
 from simulate.contact.rod_law import RodLaw
 from simulate.contact.travelling import STANDING, Waves
 
+MOST_LEVER = 2.0  # the lever of a rod then is the footprint's length at most
+
 
 class Tip(NamedTuple):
     """Profile of the tip, p(s) = tilt (s - apex) + curvature (s^2 - apex^2) >= 0."""
@@ -143,7 +145,8 @@ def leverage(strips, i, passed):
     """Factor on the distances of ``covered_middle`` in forces of a tip that leans.
 
     With it the rods' force and moment under a uniform and a linear penetration are exact wherever
-    the blade is: the squares of the distances, over the parts, sum up to length^3 / 12.
+    the blade is: the squares of the distances, over the parts, sum up to length^3 / 12. At most
+    ``MOST_LEVER``, for footprints of some 1.1 rods and less.
     """
     length = strips.length[i]
     if length <= 1.0:
@@ -151,7 +154,8 @@ def leverage(strips, i, passed):
     first = (offset(strips, FIRST, passed) + (1 + length) / 2) % 1.0  # part of the first rod
     whole = floor(length - first)
     last = length - first - whole
-    return 1 / np.sqrt(1 - (first**3 + whole + last**3) / length**3)
+    missing = (first**3 + whole + last**3) / length**3
+    return 1 / np.sqrt(max(1 - missing, 1 / MOST_LEVER**2))
 
 
 @compiled

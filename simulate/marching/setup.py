@@ -97,10 +97,10 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
     h = 2 * np.pi / Omega / steps
     if (mu := contact.friction) is not None:
         stiffness = strip_stiffness(scene.liner, places)
-        _, closing, sliding = sliding_modes(omega, Phi_b, Phi_t, places)
-        modes = omega, np.vstack([closing, Phi_lean]), np.vstack([sliding, 0 * Phi_lean])
-        of_rows = np.concatenate([stiffness, INERTIA * stiffness[: len(Phi_lean)]])
-        _require_one_solution(modes, mu, zeta, h, steps, of_rows)
+        modes, stiffness = with_lean(
+            sliding_modes(omega, Phi_b, Phi_t, places), stiffness, Phi_lean
+        )
+        _require_one_solution(modes, mu, zeta, h, steps, stiffness)
     pushed = _pushed(mu, Phi_b, Phi_t, places)
     if leans:  # an edge moves by the lean, too
         pushed = pushed + INERTIA * Phi_lean**2
@@ -145,6 +145,15 @@ def sliding_modes(
     With them mu times the generalised force does the work of friction, mu t_N.
     """
     return omega, Phi_b, places.secant[:, None] * Phi_t
+
+
+def with_lean(
+    modes: Modes, stiffness: NDArray[np.float64], Phi_lean: NDArray[np.float64]
+) -> tuple[Modes, NDArray[np.float64]]:
+    """Modes and stiffness (rows,) of strips that slide with the rows of their lean, if any."""
+    omega, closing, along = modes
+    rows = omega, np.vstack([closing, Phi_lean]), np.vstack([along, 0 * Phi_lean])
+    return rows, np.concatenate([stiffness, INERTIA * stiffness[: len(Phi_lean)]])
 
 
 def _pushed(

@@ -101,12 +101,12 @@ def cost(scene: Scene, rom: Rom, speeds: int | None = None) -> Cost:
 
 def _of_step(liner: Liner, rom: Rom, steps: float) -> float:
     """Time of a step on one core, s."""
-    rods = 0.0
+    rods, rows = 0.0, liner.m * rom.across
     if liner.law.touches:
         radius, nu = float(rom.camber[:, 0].mean()), liner.nu
         passed = ceil(nu / steps)
         rods = 1 + passed + max(rods_in_footprint(mean_footprint(liner, rom), radius, nu), passed)
-    return STEP + MODE_STRIP * rom.n * liner.m + ROD_STRIP * liner.m * rods
+    return STEP + MODE_STRIP * rom.n * rows + ROD_STRIP * rows * rods
 
 
 def _memory(speeds: int, record: Record, liner: Liner, rounds: int, n: int) -> float:

@@ -38,7 +38,7 @@ from simulate.errors.observables import NUMBERS, last_spectrum
 from simulate.errors.run import Run
 from simulate.marching import STATUSES, WITH_RESULT, FinalState, every, strip_stiffness
 from simulate.marching.friction import growth_rate, mu_crit
-from simulate.marching.setup import sliding_modes
+from simulate.marching.setup import sliding_modes, with_lean
 from simulate.scene import LEADING, Scene
 from simulate.scene.laws.table import Tabulated
 from simulate.sweeps.plain import Course
@@ -511,9 +511,10 @@ def _of_friction(run: Run) -> dict[str, Any]:
     scene, setup = run.scene, run.setup
     modes = sliding_modes(setup.omega, setup.Phi_b, setup.Phi_t, setup.places)
     k, mu = strip_stiffness(scene.liner, setup.places), known(scene.contact.friction, "friction")
+    rows, of_rows = with_lean(modes, k, setup.Phi_lean)
     return {
         "mu_crit": mu_crit(modes, k),
-        "growth_rate": growth_rate(modes, mu, scene.damping_ratio, k),
+        "growth_rate": growth_rate(rows, mu, scene.damping_ratio, of_rows),
         "least_sliding": run.outcome.facts.least_sliding,
     }
 

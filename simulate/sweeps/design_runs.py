@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from geometry.project import (
     ProvenanceError,
     Say,
+    UserError,
     code_hash,
     fingerprint,
     progress,
@@ -35,7 +36,7 @@ from simulate.errors.checked import checked
 from simulate.errors.observables import NUMBERS, last_spectrum, numbers
 from simulate.errors.run import Run
 from simulate.errors.signals import amplitude
-from simulate.marching import STATUSES, WITH_RESULT, SceneError, check_scene
+from simulate.marching import STATUSES, WITH_RESULT, check_scene
 from simulate.scene import LEADING, TRENDS, Scene
 from simulate.scene.design import Design, refuse, value_at
 from simulate.sweeps import dataset
@@ -133,7 +134,7 @@ class Engine:
         for row in rows:
             try:
                 check(self.scenes[row])
-            except SceneError as error:
+            except UserError as error:
                 faults += [(row + 1, fault) for fault in error.faults]
         refuse(self.design.path, faults)
 

@@ -104,6 +104,11 @@ def ill(rom):
         "xi: 0 places": {"xi": ("none", [])},
         "xi: 1 places": {"xi": ("one", [0.5])},
         "xi: 8 places with 0 directions": {"directions": ("none", np.array([], str))},
+        "across: needs 1, or 2 for patches": {"across": 2},
+        "across: needs 1": {"across": np.nan},
+        "sides (2, 3)": {"sides": (("side", "there"), np.ones((2, 3)))},
+        "sides: need angles": {"sides": (("side", "place"), rom.sides[::-1])},
+        "sides: need angles (rad)": {"sides": (("side", "place"), np.degrees(rom.sides))},
         "xi: 12 places": {
             "xi": ("xi", np.linspace(0, 1, 12)),
             "M": (("dof", "dof_"), rom.M[:9, :9]),
@@ -121,7 +126,9 @@ FAULTS = (
     "f1: nan Hz", "Omega_m: 1 dimensions", "span: 0 dimensions of type <U1",
     "M: 2 dimensions of type complex128", "K (0, ", "must be above 1e-14 of its largest",
     "check the unit (rad/s", "f1: 0.259", "point 2 lies", "holds values that are not finite",
-    "xi: 0 places", "xi: 1 places", "xi: 8 places with 0 directions", "xi: 12 places",
+    "across: needs 1, or 2 for patches", "across: needs 1", "sides (2, 3)", "sides: need angles",
+    "sides: need angles (rad)", "xi: 0 places", "xi: 1 places", "xi: 8 places with 0 directions",
+    "xi: 12 places",
 )  # fmt: skip
 
 

@@ -32,6 +32,7 @@ from simulate.errors.run import Case
 from simulate.marching import check_scene, march, prepare
 from simulate.marching.friction import solve_sliding
 from simulate.marching.modal import Step
+from simulate.marching.setup import sliding_modes, strip_stiffness, with_lean
 from simulate.scene import LEADING
 from simulate.sweeps.plausible import doubts
 
@@ -207,6 +208,21 @@ def test_central_differences_and_piecewise_exact_agree_across_the_thickness(edge
     exact = march(case, setup)
     assert by_steps.wear.mean() == pytest.approx(exact.wear.mean(), rel=0.02)
     assert np.ptp(by_steps.u_r) == pytest.approx(np.ptp(exact.u_r), rel=0.01)
+
+
+def test_the_stiffness_that_a_sliding_tip_meets_is_that_over_its_thickness(edges_rom):
+    """Integrated from edge to edge: with the lean a twelfth of the force's."""
+    case, mu = rub(contact__friction=0.3), 0.3
+    setup = prepare(case, edges_rom, edges_rom.omega1 * 0.3)
+    k = strip_stiffness(case.liner, setup.places)
+    modes = sliding_modes(setup.omega, setup.Phi_b, setup.Phi_t, setup.places)
+    (_, closing, along), rows = with_lean(modes, k, setup.Phi_lean)
+    slid, by_places = setup.places.secant[:, None] * setup.Phi_t, 0.0
+    for place, share in zip(*np.polynomial.legendre.leggauss(3), strict=True):
+        there = setup.Phi_b + place / 2 * setup.Phi_lean
+        by_places += share / 2 * (there + mu * slid).T @ (k[:, None] * there)
+    found = (closing + mu * along).T @ (rows[:, None] * closing)
+    assert found == pytest.approx(by_places, abs=1e-9 * abs(by_places).max())
 
 
 @pytest.mark.slow

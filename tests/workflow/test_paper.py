@@ -250,6 +250,7 @@ def test_causes_change_the_model_where_they_say(of_paper):
     assert changed == {
         "full interface": ("paper", "rtz"),
         "nonlinear prestress": ("paper-nonlinear", "r"),
+        "two rows across the thickness": ("paper-edges", "r"),
         "tilt 0.15, blade without lean": ("paper-upright", "rt"),
         "tilt 0.15, blade leaned the other way": ("paper-forward", "rt"),
         **dict.fromkeys(tables, ("paper-wide", "r")),

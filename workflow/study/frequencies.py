@@ -6,7 +6,7 @@ import numpy as np
 
 from fem.matrices import Matrices
 from geometry.blade import Blade
-from geometry.hats import hats
+from geometry.hats import mean, over_edges
 from geometry.mesh_file import read_mesh_file
 from rom.modes import ShiftInvert
 from simulate.scene import LEADING
@@ -28,7 +28,8 @@ def numbers(blade: Blade, mesh: str, matrices: str) -> dict[str, Any]:
     fom = Matrices.load(matrices)
     fom = fom.at(np.linspace(0, fom.top_speed, 3))
     omega = np.array([ShiftInvert(K, fom.M).modes(MODES).omega for K in fom.K])
-    (tip,) = hats(LEADING, fom.xi) @ (fom.S @ fom.u_static[-1]).reshape(-1, 3)
+    at_leading = over_edges(LEADING, fom.xi, mean(fom.across))
+    (tip,) = at_leading @ (fom.S @ fom.u_static[-1]).reshape(-1, 3)
     return {
         "element_size_mm": blade.mesh.element_size_mm,
         "nodes": len(read_mesh_file(mesh).points),

@@ -59,7 +59,7 @@ def numbers(files: Any, blade: str, scene: Row) -> list[Row]:
 def _row(fom: Matrices, solid: Solid, rom: Rom, T: NDArray) -> Row:
     constant, linear = _kept(fom, solid)
     S = fom.rows("r")
-    full = compliance_of_strips(S @ ShiftInvert(fom.K[0], fom.M).solve(S.T.toarray()))
+    full = compliance_of_strips(S @ ShiftInvert(fom.K[0], fom.M).solve(S.T.toarray()), fom.across)
     n = len(full)
     P = rom.rows(middles(n))
     reduced = np.diag(P @ np.linalg.inv(rom.stiffness(0.0)) @ P.T)
