@@ -17,7 +17,7 @@ from fem.prestress import equilibrium_forms, linear_states, mass
 from fem.second_order import SecondOrder
 from fem.solid import Solid, SymmetricForm, read_solid
 from geometry.blade import Material
-from geometry.hats import hats
+from geometry.hats import mean, over_edges
 from geometry.tip import EDGES
 from rom.modes import ShiftInvert
 
@@ -75,7 +75,8 @@ def rest(tmp_path_factory):
     mesh = mesh_at_rest(blade, str(tmp_path_factory.mktemp("rotor67")))
     solid = read_solid(str(mesh), blade.material)
     fom, states = over_speeds(blade, "rotor67", mesh, [0.0], cholesky, solid)
-    R = np.stack([hats(EDGES, fom.xi) @ fom.rows(letter).toarray() for letter in "rtz"])
+    P = over_edges(EDGES, fom.xi, mean(fom.across))
+    R = np.stack([P @ fom.rows(letter).toarray() for letter in "rtz"])
     return Rest(solid, R, fom.M, next(states).K, cholesky)
 
 
