@@ -271,21 +271,23 @@ def settings_of_basis(basis: EnrichedBasis | PaperBasis) -> dict[str, Any]:
     return basis.model_dump(mode="json", exclude={"tolerance_percent"})
 
 
+MODES, ORDERS = 4, range(1, 17)  # whose linear crossings are told
+
+
 class Margins(Settings):
-    """Crossings whose margins from the operating speeds are told, besides peaks of sweeps."""
+    """Linear crossings that are told, with their margins from the operating speeds."""
 
     modes: int = Field(
-        default=4,
+        default=MODES,
         ge=1,
         le=10,
-        description="Modes, from the first, whose crossings with engine orders are compared with "
-        "design and idle speed; the model is checked for ten",
+        description="Modes, from the first, whose crossings with engine orders are told; the model "
+        "is checked for ten",
     )
     orders: list[Annotated[int, Field(ge=1, le=200)]] = Field(
-        default=[1, 2, 3, 4, 5, 6],
+        default=[*ORDERS],
         min_length=1,
-        description="Their engine orders; those of casings are added, and with mode 1 those of "
-        "`peaks`",
+        description="Their engine orders; those of casings are added",
     )
 
 

@@ -14,6 +14,7 @@ from geometry.blade import (
     TOP_SPEEDS,
     Blade,
     EnrichedBasis,
+    Margins,
     MeshFile,
     settings_of_basis,
 )
@@ -44,6 +45,7 @@ class GivenModel(SettingsFile):
 
     top_speed: ClassVar[None] = None  # Omega_m is in the file
     operating_rpm: ClassVar[dict[str, float]] = {}
+    margins: ClassVar[Margins] = Margins()
 
     @property
     def files(self) -> list[PurePath]:
@@ -116,6 +118,7 @@ class GivenMatrices(SettingsFile):
 
     key: ClassVar[str] = "full_matrices"
     operating_rpm: ClassVar[dict[str, float]] = {}
+    margins: ClassVar[Margins] = Margins()
 
     full_matrices: FullMatrices = Field(description="Matrices made elsewhere")
     patches: int = Field(default=16, ge=2, le=64, description="Patches of the tip")

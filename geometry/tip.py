@@ -21,6 +21,7 @@ NEAR_ENDS = np.array([0.01, 0.02, 0.03])  # chord fractions, behind most of a bl
 TO_END = np.array([3.0, -3.0, 1.0])  # parabolic extrapolation from there to the end of the chord
 PLACES = 101  # of the camber line; they include NEAR_ENDS
 EDGES = (1 / 16, 15 / 16)  # chord fractions at which gaps and outputs are given
+JUDGED = (*EDGES, 1 / 2)  # at which a response is judged: a mode may have a node at one
 FOLD = 2e-3  # of the axial length, by which z may go back along a side: at a round edge
 LEAST_THICK = 1e-6  # m, where the thickness at equal z vanishes
 TURNS = 6  # iterations of the chord's direction; the error falls by edge radius over chord in each

@@ -2,6 +2,7 @@
 
 from collections import Counter
 from dataclasses import dataclass
+from operator import attrgetter
 from pathlib import Path
 from typing import Self
 
@@ -46,9 +47,9 @@ class Runs:
                 ", ".join(f"{status}: {count}" for status, count in ends.items()),
                 dataset.checks(self.dataset),
                 *(
-                    f"EO {k}: peak at {speeds[peak.index]:.0f} rpm, {peak.over_crossing:.3f} times "
-                    f"the linear crossing, {peak.amplitude:.3g} gaps"
-                    for k, peak in self.peaks().items()
+                    f"{found.name}: peak at {speeds[found.index]:.0f} rpm, "
+                    f"{found.rises_from}, {found.amplitude:.3g} gaps"
+                    for found in peak.reported(self.dataset, self.rom)
                 ),
             ]
         )
@@ -58,7 +59,7 @@ class Runs:
         """The scene that was run."""
         return dataset.scene_of(self.dataset)
 
-    def peaks(self) -> dict[int, peak.Peak]:
+    def peaks(self) -> dict[float, peak.Peak]:
         """Response peaks by engine order, as ``peaks``.
 
         >>> runs = sweep(scene, rom)
@@ -120,11 +121,15 @@ def march(scene: Scene, rom: Rom, Omega: float) -> Outcome:
     return checked(alone, scene.checked_share)[0][0].outcome
 
 
-def peaks(runs: Runs) -> dict[int, peak.Peak]:
+def peaks(runs: Runs) -> dict[float, peak.Peak]:
     """Response peaks of a sweep by engine order: those that figures and tables name.
+
+    A steady line on no integer order is there under f / Omega. Along an order that several modes
+    meet this is the highest peak; ``simulate.sweeps.peak.reported`` lists all.
 
     >>> for k, peak in peaks(sweep(scene, rom)).items():
     ...     print(k, f"{peak.Omega_c:.2f}, {peak.over_crossing:.2f} times the linear crossing")
     4 0.32, 1.03 times the linear crossing
     """
-    return peak.reported(runs.dataset, runs.rom)
+    found = sorted(peak.reported(runs.dataset, runs.rom), key=attrgetter("amplitude"))
+    return {of.k: of for of in found if of.k}

@@ -137,7 +137,7 @@ class Subject(NamedTuple):
         check_scene(other.scene(self.scene), other.rom(self.rom))
         cases = (case_of(self.runs, self.scene, self.rom, peak) for peak in self.peaks)
         return [
-            at_peak(case.neighbour(other), p.k) for case, p in zip(cases, self.peaks, strict=True)
+            at_peak(case.neighbour(other), p) for case, p in zip(cases, self.peaks, strict=True)
         ]
 
 
@@ -207,7 +207,7 @@ def table(subject: Subject, results: Mapping[str, list[Numbers] | str]) -> str:
 
 def _where(subject: Subject, peak: Peak) -> str:
     rpm = f"{RPM_PER_HZ * subject.rom.f1 * peak.Omega_c:.0f} rpm"
-    return f"EO {peak.k}, {rpm}" if peak.k else rpm
+    return ", ".join(filter(None, [peak.name, rpm]))
 
 
 def _cells(columns: Sequence[Column], unchanged: Numbers, result: Numbers | str) -> list[str]:

@@ -1,18 +1,22 @@
-"""Margins of operating speeds: how far critical speeds are, linear crossings and rub peaks alike.
+"""Critical speeds of a blade, and how far they are from its operating speeds.
 
-Summary, Campbell diagram and page show these rows, of the peaks by ``simulate.sweeps.peak``.
+Linear crossings and rub peaks alike. Summary, Campbell diagram and page show these rows.
 """
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
+from itertools import groupby
 from math import isfinite
+from operator import itemgetter
 from typing import Any, TypedDict
 
-from simulate.sweeps.plain import CriticalSpeed
+from simulate.sweeps.plain import CriticalSpeed, mode_name, numbers_of, order_name
 from workflow import markdown
 
 WITHIN = 0.25  # of the operating speed: tables have the speeds within it
+FURTHER = 3  # nearest of orders that nothing excites, in tables
+SEEN = "seen"  # an engine order that is in the sweep's spectra
 HEADS = [
-    *("operating speed rpm", "critical speed", "mode", "EO", "rpm"),
+    *("operating speed rpm", "critical speed", "mode", "EO", "excited by", "rpm"),
     *("speed margin", "frequency margin"),
 ]
 
@@ -33,9 +37,10 @@ class Critical(CriticalSpeed, Speed):
 class Margin(Critical):
     """A critical speed with its margins from an operating speed."""
 
-    line: str  # name of the operating speed
-    line_rpm: float
-    speed_margin: float  # critical over operating speed less 1
+    line: str | None  # name of the operating speed; None without
+    line_rpm: float | None
+    excited: str  # by what its engine order is: a harmonic of the casing, a side band, or ``SEEN``
+    speed_margin: float | None  # critical over operating speed less 1
     frequency_margin: float | None  # (f - k Omega) / (k Omega) there; None of a rub peak
 
 
@@ -44,57 +49,78 @@ def rows(
     peaks: Iterable[Critical] = (),
     relative: float = 0.0,
     least: bool = False,
+    seen: Iterable[int] = (),
 ) -> list[Margin]:
     """Each critical speed with its margins from each operating speed, nearest first.
 
+    Without operating speeds each once, without margins, slowest first.
+
     Parameters
     ----------
-    campbell : as of ``simulate.sweeps.peak.critical``; empty without operating speeds
+    campbell : as of ``simulate.sweeps.crossings.critical``
     peaks : rub peaks of a sweep
     relative : error of the frequencies; with ``least`` a part of it is not known
+    seen : engine orders in the spectra of that sweep
     """
+    excited = dict.fromkeys(seen, SEEN) | dict(campbell["excited"])
     crossings = [
         Critical(
             **crossing,
             rpm_error=relative * crossing["rpm"] + abs(crossing["quadratic_rpm"] - crossing["rpm"]),
             least=least,
         )
-        for crossing in campbell.get("crossings", ())
+        for crossing in campbell["crossings"]
     ]
     return [
         Margin(
             line=name,
-            line_rpm=line_rpm,
+            line_rpm=rpm,
             **row,
-            speed_margin=row["rpm"] / line_rpm - 1,
-            frequency_margin=row["mode"]
-            and campbell["Hz"][name][row["mode"] - 1] / (row["k"] * line_rpm / 60) - 1,
+            excited=excited.get(row["k"], "" if row["quadratic_rpm"] else SEEN),
+            speed_margin=rpm and row["rpm"] / rpm - 1,
+            frequency_margin=rpm
+            and row["quadratic_rpm"]
+            and campbell["Hz"][name][row["modes"][0] - 1] / (row["k"] * rpm / 60) - 1,
         )
-        for name, line_rpm in campbell.get("lines", {}).items()
+        for name, rpm in (campbell["lines"] or {None: None}).items()
         for row in sorted(
-            [*crossings, *peaks], key=lambda row, rpm=line_rpm: abs(row["rpm"] / rpm - 1)
+            [*crossings, *peaks],
+            key=lambda row, rpm=rpm: abs(row["rpm"] / rpm - 1) if rpm else row["rpm"],
         )
     ]
 
 
 def near(margins: Iterable[Margin]) -> list[Margin]:
-    """Rows within ``WITHIN``."""
-    return [row for row in margins if abs(row["speed_margin"]) <= WITHIN]
+    """Rub peaks and crossings within ``WITHIN`` of an operating speed, of excited orders first.
+
+    Those of orders that the casing excites and the nearest others. Without operating speeds the
+    former alone. A sweep's spectra change their order, and not which they are.
+    """
+    chosen = []
+    for name, of_line in groupby(margins, key=itemgetter("line")):
+        within = [row for row in of_line if abs(row["speed_margin"] or 0.0) <= WITHIN]
+        others = [row for row in within if row["quadratic_rpm"] and row["excited"] in ("", SEEN)]
+        left_out = others[FURTHER if name else 0 :]
+        kept = [row for row in within if row not in left_out]
+        chosen += sorted(kept, key=lambda row: not row["excited"])
+    return chosen
 
 
 def table(margins: Iterable[Margin]) -> list[list[str]]:
-    """Cells, under ``HEADS``, of the rows that are near."""
+    """Cells, under ``HEADS``, of the rows that are near an operating speed."""
     return [
         [
             f"{row['line']} {row['line_rpm']:.0f}",
             row["what"],
-            markdown.cell(row["mode"]),
-            str(row["k"]),
+            numbers_of(row["modes"]) or "-",
+            f"{row['k']:g}",
+            row["excited"] or "-",
             speed(row),
             share(row["speed_margin"]),
             share(row["frequency_margin"]),
         ]
         for row in near(margins)
+        if row["line"]
     ]
 
 
@@ -112,47 +138,73 @@ def share(margin: float | None) -> str:
     return "-" if margin is None else f"{100 * margin:+.1f} %"
 
 
-def nearest(
-    campbell: Mapping[str, Any],
-    margins: Sequence[Margin],
-    name: str,
-    subject: str = "critical speed",
-) -> Iterator[str]:
-    """The critical speed next above and next below an operating speed, a line each.
+def nearest(campbell: Mapping[str, Any], margins: Iterable[Margin], name: str) -> Iterator[str]:
+    """The crossing next above and next below an operating speed, and the nearest rub peak, if any.
 
-    ``subject``: name of the subject of the ``margins``.
+    A line each.
     """
-    for side, sign in (("above", 1), ("below", -1)):
-        near = [row for row in margins if row["line"] == name and sign * row["speed_margin"] > 0]
-        text = (
-            _with_margins(near[0])
-            if near
-            else "none" + f" up to {campbell['up_to']:.0f} rpm" * (sign > 0)
-        )
-        yield (
-            f"{name.capitalize()} speed {campbell['lines'][name]:.0f} rpm, "
-            f"next {subject} {side}: {text}."
-        )
+    line_rpm = campbell["lines"][name]
+    of_line = [row for row in margins if row["line"] == name]
+    crossings = [row for row in of_line if row["quadratic_rpm"]]
+    for side, sign, end in (("above", 1, campbell["up_to"]), ("below", -1, 0.0)):
+        texts = [_text(row) for row in crossings if sign * (row["speed_margin"] or 0.0) > 0]
+        found = [*texts, none_of(campbell, *sorted((line_rpm, end)))][0]
+        yield f"{name.capitalize()} speed {line_rpm:.0f} rpm, next crossing {side}: {found}."
+    for row in [row for row in of_line if not row["quadratic_rpm"]][:1]:
+        yield f"{name.capitalize()} speed {line_rpm:.0f} rpm, nearest rub peak: {_text(row)}."
 
 
-def _with_margins(row: Margin) -> str:
+def none_of(campbell: Mapping[str, Any], low: float, high: float) -> str:
+    """That there is no critical speed, and where was looked: from ``low`` to ``high``, rpm."""
+    return f"none of {looked_at(campbell)} from {low:.0f} to {high:.0f} rpm"
+
+
+def looked_at(campbell: Mapping[str, Any]) -> str:
+    """Modes and engine orders whose crossings are told.
+
+    >>> looked_at({"modes": 4, "orders": [1, 2, 3, 4, 8, 20, 21]})
+    'modes 1 to 4 with EO 1 to 4, 8, 20, 21'
+    """
+    rows = groupby(enumerate(campbell["orders"]), key=lambda numbered: numbered[1] - numbered[0])
+    each = ([order for _, order in row] for _, row in rows)
+    orders = (
+        f"{row[0]} to {row[-1]}" if len(row) > 2 else ", ".join(map(str, row)) for row in each
+    )
+    last = campbell["modes"]
+    return f"{f'modes 1 to {last}' if last > 1 else 'mode 1'} with EO {', '.join(orders)}"
+
+
+def _text(row: Margin) -> str:
     """A critical speed with its margins."""
-    mode, frequency = f" with mode {row['mode']}", f", frequency {share(row['frequency_margin'])}"
+    with_mode = " with ".join(filter(None, [order_name(row["k"]), mode_name(row["modes"])]))
+    frequency = f", frequency {share(row['frequency_margin'])}"
     return (
-        f"{speed(row)} rpm, {row['what']} of EO {row['k']}{mode * bool(row['mode'])}: "
-        f"speed {share(row['speed_margin'])}{frequency * bool(row['mode'])}"
+        f"{speed(row)} rpm, {row['what']} of {with_mode}: speed {share(row['speed_margin'])}"
+        f"{frequency * (row['frequency_margin'] is not None)}"
     )
 
 
-def covered(campbell: Mapping[str, Any], swept: Sequence[float]) -> str:
-    """Subject of the margins; ``swept``: slowest and fastest run with a result, rpm, if any."""
-    orders, orders_of_f1 = (", ".join(map(str, campbell[key])) for key in ("orders", "peaks"))
-    before, top = campbell["through"]
-    further = f", of mode 1 with EO {orders_of_f1}" if orders_of_f1 else ""
-    rub = f", and of rub peaks from {swept[0]:.0f} to {swept[-1]:.0f} rpm" if swept else ""
+def met(campbell: Mapping[str, Any]) -> Iterator[str]:
+    """All linear crossings, a line for each mode; or that there is none."""
+    if not campbell["crossings"]:
+        yield f"Linear crossings: {none_of(campbell, 0.0, campbell['up_to'])}."
+    by_mode = sorted(campbell["crossings"], key=lambda row: (row["modes"][0], row["rpm"]))
+    for mode, of_mode in groupby(by_mode, key=lambda row: row["modes"][0]):
+        speeds = ", ".join(f"EO {row['k']} {row['rpm']:.0f}" for row in of_mode)
+        yield f"Linear crossings of mode {mode}, rpm: {speeds}."
+
+
+def covered(campbell: Mapping[str, Any]) -> str:
+    """Subject of the crossings, and how they are known."""
+    ahead = ""
+    if campbell["through"]:
+        before, top = campbell["through"]
+        ahead = (
+            f" Above {top:.0f} rpm, the highest speed of the model, f² is extrapolated linearly in "
+            f"Ω² from {before:.0f} and {top:.0f} rpm, up to {campbell['up_to']:.0f} rpm; ± "
+            "includes the difference from the quadratic."
+        )
     return (
-        f"Margins are of crossings of modes 1 to {campbell['modes']} with EO {orders}{further}"
-        f"{rub}. Above {top:.0f} rpm, the highest speed of the model, f² is extrapolated linearly "
-        f"in Ω² from {before:.0f} and {top:.0f} rpm, up to {campbell['up_to']:.0f} rpm; ± includes "
-        "the difference from the quadratic. Gyroscopic terms are not in the model."
+        f"Crossings are those of {looked_at(campbell)} up to {campbell['up_to']:.0f} rpm."
+        f"{ahead} Gyroscopic terms are not in the model."
     )

@@ -5,17 +5,17 @@ One row for each peak, with the uncertainty of each number or that it is not kno
 
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import chain
-from math import isfinite
+from math import isfinite, nan
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from geometry.blade import RPM_PER_HZ
 from geometry.project import csv_text, read_json
-from geometry.tip import EDGES
+from geometry.tip import JUDGED
 from simulate.errors.beyond_linear import BEYOND
 from simulate.errors.neighbour import CHAOTIC, ONE_MOTION, TWO_MOTIONS
 from simulate.scene import DYING_OUT, GROWING, TRENDS
-from simulate.sweeps.plain import Course
+from simulate.sweeps.plain import NO_CROSSING, Course, numbers_of
 from workflow import margins, markdown
 from workflow.markdown import Number
 
@@ -58,12 +58,16 @@ COLUMNS = (  # of the numbers of ``sweeps.peak_results``
     Column("alternating", "MPa", 1e-6, "alternating MPa"),
     Column("margin", "1", 1.0, "margin"),
 )
+PLACES = dict(zip(JUDGED, ("", " at ξ = 15/16", " at ξ = 1/2"), strict=True))
 LOADS = {"opening", "force", "force_peak", "torque"}  # numbers of the second table
 STRESS = {"mean_stress", "alternating", "margin"}  # numbers of ``stress.json``, there too
 AT_END = ("at the end", "τ rev.", "mm³/rev.")  # heads
 MEANING = {  # of the columns
-    "amplitude": "of the tip's radial displacement at ξ = 1/16, along the engine order EO, over "
-    "the last revolutions of the run",
+    "amplitude": "of the tip's radial displacement at ξ = 1/16, along the engine order EO, or of a "
+    "line on none along f/Ω, over the last revolutions of the run; at another place where it is "
+    "near a node there",
+    "mode": "that from whose linear crossing with the order the peak rises, or several whose "
+    "crossings are near",
     "largest": "largest |u_r| there in the whole run, and the revolution of it",
     "at ξ = 15/16": "on a casing that tapers the motion is u_r - s u_z, s = dr/dz, at ξ = 1/16 or "
     "15/16, whichever moves more",
@@ -88,9 +92,9 @@ MEANING = {  # of the columns
     "±": "root of the sum of squares of the changes by a twin (gaps changed by 1e-10), by models "
     "with frequencies off by their known errors, by a model with half the patches, and by a run "
     "with twice the steps, rods and strips (the last two not with central differences, with "
-    "points, or in a run that continues from another); for the amplitude also the rise of a "
-    "resonance between two speeds of the sweep; for the speed the spacing of the sweep and the "
-    "errors of the frequencies, without shifts by step, strips and patches",
+    "points, or in a run that continues from another); for the amplitude also the rise to "
+    "the top between the speeds, by two runs halfway to its neighbours; for the speed the spacing "
+    "of the sweep and the errors of the frequencies, without shifts by step, strips and patches",
     "≥": "as ±, but some of these are not known",
     AT_END[0]: f"whether the motion is {', '.join(TRENDS)}, by the range of u_r of each revolution",
     AT_END[1]: "time constant of the mode that responds, in which it dies out to 1/e",
@@ -111,7 +115,7 @@ PARTS = {  # of uncertainties, that may not be known
 
 # Values of a scene taken from its answers as they are.
 COPIED = (
-    *("scene", "blade", "f1_Hz", "gap_m", "dofs", "crossings", "status", "reasons", "ends"),
+    *("scene", "blade", "f1_Hz", "gap_m", "dofs", "status", "reasons", "ends", "swept", "free"),
     *("checks", "model_error", "no_torque", "mu_crit", "sweep_s"),
 )
 
@@ -126,7 +130,10 @@ COURSE = {  # of ``Course``: unit and its scale from SI
 class PeakRow(margins.Speed):
     """A peak: speeds in rpm and over f1(0), all else in SI; None where it is not known."""
 
-    k: int | None  # engine order; None without a peak
+    k: float | None  # engine order, or f / Omega of a line on none; None without a peak
+    k_error: float  # of the latter
+    modes: list[int]  # of which it may be; none where no crossing explains it
+    place: float  # chord fraction of its amplitude
     over_f1: float
     hz: float | None
     over_crossing: float | None
@@ -148,11 +155,11 @@ def numbers(
 
     Margins of the speeds are of ``files.roms``, the model of each scene.
 
-    ``operating``: as of ``simulate.sweeps.peak.critical``, by blade; ``others``: scenes that have
-    results and are left out, for they may be of other settings or code.
+    ``operating``: what ``simulate.sweeps.crossings.critical`` seeks, by blade; ``others``: scenes
+    that have results and are left out, for they may be of other settings or code.
     """
     from rom.model import Rom  # slow imports, which Snakemake does without
-    from simulate.sweeps.peak import critical
+    from simulate.sweeps.crossings import critical
 
     stress = {row["scene"]: row for row in map(read_json, getattr(files, "stress", []))}
     return {
@@ -160,7 +167,7 @@ def numbers(
             _scene(
                 results,
                 stress.get(results["scene"]),
-                (lines := operating.get(results["blade"], {})) and critical(Rom.load(rom), lines),
+                critical(Rom.load(rom), operating[results["blade"]]),
             )
             for results, rom in zip(map(read_json, files.answers), files.roms, strict=True)
         ],
@@ -171,7 +178,7 @@ def numbers(
 def _scene(
     results: Mapping[str, Any], stress: Mapping[str, Any] | None, campbell: Mapping[str, Any]
 ) -> dict[str, Any]:
-    """One scene; ``stress``: as of ``stress.json``; ``campbell``: subject of its margins."""
+    """One scene; ``stress``: as of ``stress.json``; ``campbell``: its linear crossings."""
     from simulate.sweeps.peak import Peak  # slow, as above
 
     stress_by_speed = {row["speed_over_f1"]: row for row in stress["speeds"]} if stress else {}
@@ -180,7 +187,7 @@ def _scene(
     rub_peaks = [
         margins.Critical(
             what=f"rub peak ({row['course'].get('trend')})" if moves(row) else "rub peak",
-            mode=None,
+            modes=row["modes"],
             k=row["k"],
             rpm=row["rpm"],
             quadratic_rpm=None,
@@ -199,7 +206,11 @@ def _scene(
         "stresses": [*stress_by_speed.values()],
         "operating": campbell,
         "margins": margins.rows(
-            campbell, rub_peaks, _model_error(results), None in results["model_error"].values()
+            campbell,
+            rub_peaks,
+            _model_error(results),
+            None in results["model_error"].values(),
+            results["seen"],
         ),
     }
 
@@ -208,17 +219,21 @@ def _row(results: Mapping[str, Any], peak: "Peak", stress: Mapping[str, Any]) ->
     """The row of a peak; ``stress``: that of its speed, empty where it is not known."""
     f1, k, over_f1 = results["f1_Hz"], peak.k, peak.Omega_c
     values = peak.numbers | {name: stress[name] for name in stress if name in STRESS}
+    unexplained = NO_CROSSING * bool(k and not peak.modes)
     return {
         "k": k,
+        "k_error": results["half_bin"],
+        "modes": [*peak.modes],
+        "place": peak.place,
         "rpm": RPM_PER_HZ * f1 * over_f1,
         "rpm_error": _speed_error(results, peak),
         "least": None in results["model_error"].values(),
         "over_f1": over_f1,
         "hz": k and k * f1 * over_f1,
-        "over_crossing": peak.crossing and peak.over_crossing,
+        "over_crossing": peak.over_crossing,
         "bound": peak.at_end,
         "status": peak.status,
-        "word": ", ".join(filter(None, [peak.verdict or peak.status, peak.beyond])),
+        "word": ", ".join(filter(None, [peak.verdict or peak.status, peak.beyond, unexplained])),
         "lobes": peak.lobes,
         "course": peak.course,
         "unknown": _unknown(results["model_error"], peak.parts),
@@ -307,7 +322,7 @@ def panel(
 ) -> dict[str, Any]:
     """The same of one scene's ``answers`` for its page, with the speeds of the rows over f1(0).
 
-    ``campbell``: as of ``simulate.sweeps.peak.critical``; ``stress``: as of ``stress.json``.
+    ``campbell``: as of ``simulate.sweeps.crossings.critical``; ``stress``: as of ``stress.json``.
     """
     scene = _scene(answers, stress, campbell)
     tables = [*shown(scene), (margins.HEADS, margins.table(scene["margins"]))]
@@ -342,7 +357,7 @@ def shown(scene: Mapping[str, Any]) -> list[tuple[list[str], list[list[str]]]]:
     )
     motion_rows = [
         [
-            markdown.cell(row["k"]),
+            *_names(row),
             margins.speed(row),
             *_cells(row, motion),
             *_end_of_run(row),
@@ -352,7 +367,7 @@ def shown(scene: Mapping[str, Any]) -> list[tuple[list[str], list[list[str]]]]:
     ]
     load_rows = [
         [
-            markdown.cell(row["k"]),
+            *_names(row),
             f"{row['over_f1']:.3f}",
             f"{row['hz']:.1f}" if row["hz"] else "-",
             *_cells(row, loads),
@@ -360,9 +375,16 @@ def shown(scene: Mapping[str, Any]) -> list[tuple[list[str], list[list[str]]]]:
         for row in rows
     ]
     return [
-        (["EO", "rpm", *(column.head for column in motion), *AT_END, ""], motion_rows),
-        (["EO", "Ω / f₁(0)", "Hz", *(column.head for column in loads)], load_rows),
+        (["EO", "mode", "rpm", *(column.head for column in motion), *AT_END, ""], motion_rows),
+        (["EO", "mode", "Ω / f₁(0)", "Hz", *(column.head for column in loads)], load_rows),
     ]
+
+
+def _names(row: PeakRow) -> list[str]:
+    """Engine order and mode; of a line on no order f / Omega, known to half a bin."""
+    k, modes = row["k"], numbers_of(row["modes"]) or "-"
+    off = "" if not k or k % 1 == 0 else f" ±{row['k_error']:.2g} (f/Ω)"
+    return [f"{k:.3g}{off}" if k else "-", modes]
 
 
 def _cells(row: PeakRow, columns: Iterable[Column]) -> list[str]:
@@ -378,8 +400,7 @@ def _cell(row: PeakRow, column: Column) -> str:
     number = column.number(value, error, least=_in_part(row, column.name))
     further = "" if other is None else f" or {column.number(other, error).shown}"
     goes_on = f", {row['course'].get('trend')}" if column.name == "amplitude" and moves(row) else ""
-    at_trailing = row["course"].get("place") == EDGES[1] and column.name == "amplitude"
-    where = " at ξ = 15/16" * at_trailing
+    where = PLACES.get(row["place"], "") * (column.name == "amplitude")
     revolution = row["course"].get("largest_round") if column.name == "displacement" else None
     revolution_text = f" (rev. {revolution:.0f})" if revolution else ""
     return f"{number.shown}{further} {number.share}{goes_on}".rstrip() + revolution_text + where
@@ -422,7 +443,8 @@ def about(scene: Mapping[str, Any]) -> str:
 
 def notes(scene: Mapping[str, Any]) -> list[str]:
     """Crossings, ends of the sweep, operating lines, unknown parts, cost of uncertainties."""
-    lines = [*crossings_and_ends(scene), *_operating_lines(scene), *_worst(scene)]
+    lines = [*_without_peaks(scene), *crossings_and_ends(scene), *_operating_lines(scene)]
+    lines += _worst(scene)
     numbers = {name for row in scene["rows"] for name in row["values"]}
     missing = {part for row in scene["rows"] for parts in row["unknown"].values() for part in parts}
     unknown = [PARTS[part] for part in PARTS if part in missing]
@@ -443,14 +465,24 @@ def notes(scene: Mapping[str, Any]) -> list[str]:
     ]
 
 
+def _without_peaks(scene: Mapping[str, Any]) -> list[str]:
+    """Where peaks were looked for, if there is none; free vibrations that are none."""
+    swept = (RPM_PER_HZ * scene["f1_Hz"] * speed for speed in scene["swept"])
+    speeds, free = sum(scene["status"].values()), scene["free"]
+    if not scene["rows"]:
+        return ["Rub peaks: none, as nothing moves the blade: it is at rest at all speeds."]
+    none = speeds > 1 and not any(row["k"] for row in scene["rows"])
+    return [f"Rub peaks: {margins.none_of(scene['operating'], *swept)}."] * none + [
+        f"At {free} of {speeds} speeds the largest line is a free vibration of the start, which "
+        "decays: it is no peak."
+    ] * bool(free)
+
+
 def _operating_lines(scene: Mapping[str, Any]) -> list[str]:
-    """Critical speeds next to the operating speeds, and their subject; nothing without these."""
+    """Critical speeds next to the operating speeds, and how crossings are known."""
     campbell = scene["operating"]
-    swept = [RPM_PER_HZ * scene["f1_Hz"] * end["over_f1"] for end in scene["ends"]]
-    lines = [
-        margins.nearest(campbell, scene["margins"], name) for name in campbell.get("lines", ())
-    ]
-    return [*chain(*lines), margins.covered(campbell, swept)] if campbell else []
+    lines = (margins.nearest(campbell, scene["margins"], name) for name in campbell["lines"])
+    return [*chain(*lines), margins.covered(campbell)]
 
 
 def _worst(scene: Mapping[str, Any]) -> list[str]:
@@ -473,17 +505,15 @@ def _worst(scene: Mapping[str, Any]) -> list[str]:
 
 
 def crossings_and_ends(scene: Mapping[str, Any]) -> list[str]:
-    """Linear crossings of f1, and results at the ends of the sweep."""
+    """Linear crossings, and results at the ends of the sweep."""
 
     def rpm_text(over_f1: float) -> str:
         """A speed in rpm, and over f1(0)."""
         return f"{RPM_PER_HZ * scene['f1_Hz'] * over_f1:.0f} rpm ({over_f1:.3f})"
 
-    crossings = ", ".join(f"EO {k} at {rpm_text(speed)}" for k, speed in scene["crossings"].items())
     seen = {rpm_text(end["over_f1"]): _seen(end) for end in scene["ends"]}
     ends = "; ".join(f"{where}: {what}" for where, what in seen.items() if what)
-    lines = {"Linear crossings of f₁ (and over f₁(0))": crossings, "Ends of the sweep": ends}
-    return [f"{name}: {text}." for name, text in lines.items() if text]
+    return [*margins.met(scene["operating"]), *[f"Ends of the sweep: {ends}."] * bool(ends)]
 
 
 def _seen(end: Mapping[str, Any]) -> str:
@@ -496,7 +526,7 @@ def _seen(end: Mapping[str, Any]) -> str:
 
 def over_gap(row: PeakRow) -> list[str]:
     """Speed over f1(0) and crossing, amplitude and wear over the gap, as figures have them."""
-    speeds = [f"{row[name]:.3f}" for name in ("over_f1", "over_crossing")]
+    speeds = [f"{row[name] or nan:.3f}" for name in ("over_f1", "over_crossing")]
     return speeds + [
         "" if number is None else f"{number:.2f}" for number in row["over_gap"].values()
     ]
@@ -511,7 +541,12 @@ def csv(summary: Mapping[str, Any]) -> str:
 def margins_csv(summary: Mapping[str, Any]) -> str:
     """One row for each scene, operating line and critical speed; empty cells as in ``csv``."""
     records = [
-        {"scene": scene["scene"], "blade": scene["blade"], **row}
+        {
+            "scene": scene["scene"],
+            "blade": scene["blade"],
+            "mode": numbers_of(row["modes"]),
+            **{name: value for name, value in row.items() if name != "modes"},
+        }
         for scene in summary["scenes"]
         for row in scene["margins"]
     ]
@@ -533,6 +568,8 @@ def _record(scene: Mapping[str, Any], row: PeakRow) -> dict[str, Any]:
         "scene": scene["scene"],
         "blade": scene["blade"],
         "engine order": row["k"],
+        "mode": numbers_of(row["modes"]),
+        "amplitude at xi": _digits(row["place"]) if row["k"] else "",
         "status": row["status"],
         "word": row["word"],
         "trend": row["course"].get("trend"),

@@ -35,7 +35,7 @@ class SecondOrder(NamedTuple):
             return cls(*(checked[name].values for name in ("speeds", "tip", "second_order")))
 
     def at_peak(
-        self, rom: Rom, casing: Casing, Omega: float, k: int | None, place: float, motion: float
+        self, rom: Rom, casing: Casing, Omega: float, k: float | None, place: float, motion: float
     ) -> tuple[float, float]:
         """Largest change of the radius of second order, m, and largest u_z, m, of both edges.
 

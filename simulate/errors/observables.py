@@ -11,6 +11,7 @@ import numpy as np
 from numpy.linalg import norm
 from numpy.typing import ArrayLike, NDArray
 
+from geometry.tip import JUDGED
 from simulate.contact.places import by_share
 from simulate.errors.loads import mean_force, mean_opening, torque_of_rounds, worn_volume
 from simulate.errors.run import Run
@@ -114,21 +115,26 @@ def error(value: ArrayLike, reference: ArrayLike) -> float:
     return float(norm(np.ravel(np.subtract(value, reference))) / norm(np.ravel(reference)))
 
 
-def last_spectrum(run: Run) -> NDArray[np.float32]:
-    """Amplitudes of u_r at xi = 1/16 over the revolutions recorded, m, as files hold them."""
+def last_spectrum(run: Run, place: float | None = None) -> NDArray[np.float32]:
+    """Amplitudes of u_r at xi = 1/16 over the revolutions recorded, m, as files hold them.
+
+    Or at a ``place`` of ``JUDGED``.
+    """
     samples = run.scene.record.rounds_of_spectrum * run.scene.record.samples_per_round
-    return spectrum(run.outcome.u_r[-samples:, 0]).astype(np.float32)
+    at = 0 if place is None else JUDGED.index(place)
+    u_r = run.outcome.u_r if place is None else run.outcome.judged
+    return spectrum(u_r[-samples:, at]).astype(np.float32)
 
 
-def numbers(run: Run, k: int | None = None) -> Numbers:
+def numbers(run: Run, k: float | None = None, place: float | None = None) -> Numbers:
     """The numbers of a run that it has recorded, in the units of ``NUMBERS``.
 
-    ``k``: engine order of the amplitude; without it the largest. Wear is that of files, in single
-    precision.
+    ``k``: engine order of the amplitude, or f / Omega; without it the largest. ``place``: where, of
+    ``JUDGED``, if it is not that of u_r. Wear is that of files, in single precision.
     """
     result, record, outcome = {}, run.scene.record, run.outcome
     if record.spectrum_rounds and outcome.status in WITH_RESULT:
-        bins = last_spectrum(run)
+        bins = last_spectrum(run, place)
         result["amplitude"] = float(amplitude(bins, record.spectrum_rounds, k))
     if isfinite(largest := outcome.each.largest[0]):
         result["displacement"] = largest

@@ -4,6 +4,8 @@
 where they are used.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
@@ -16,6 +18,9 @@ LOBE_PROMINENCE = 0.15  # least prominence of a lobe, over the deepest wear
 BLURRED = 4096  # points of a blurred profile
 MODE_BAND = 0.5  # engine orders on either side of a natural frequency, ascribed to its mode
 HALF_ORDER = 0.25  # the amplitude at engine order k is taken within k -+ 0.25
+RESOLVED = 2  # bins, distance of a line from an integer order at which it is on none
+RUBS = 0.1  # of the decay of a free vibration, what a rub that ends falls by less
+LASTS = 0.99  # share that is left at least of a line that lasts, with hardly any damping
 
 
 def spectrum(u_r: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -35,12 +40,72 @@ def spectrum(u_r: NDArray[np.float64]) -> NDArray[np.float64]:
     return amplitude
 
 
+class Lines(NamedTuple):
+    """Lines of the spectra at some places; amplitudes in the unit of the signals."""
+
+    along: NDArray[np.float64]  # (places, orders), along engine orders 1, 2, ... where they last
+    beside: NDArray[np.float64]  # (places,), largest on no integer order that lasts; 0: none
+    order: NDArray[np.float64]  # (places,), f / Omega of these; nan without one
+    free: bool  # whether the largest at the first place is a free vibration of the start
+
+
+def lines(u_r: NDArray[np.float64], rounds: int, zeta: float, driven: NDArray[np.bool_]) -> Lines:
+    """Lines of the signals ``u_r`` (samples, places) of a whole number of revolutions.
+
+    A free vibration decays by exp(-pi zeta x rounds) from the first half of the revolutions to the
+    second, x = f / Omega. A line lasts that falls by less than half of that; along an engine order
+    that the casing drives by less than ``RUBS`` of it: a rub may end. Nothing is on an order beside
+    which, ``RESOLVED`` bins away or more, a line is twice as strong. A line on no integer order is
+    kept where it is the largest of its spectrum; without two revolutions in each half none is.
+
+    Parameters
+    ----------
+    zeta : damping ratio of the modes
+    driven : (orders,), whether the casing drives the engine orders 1, 2, ...
+    """
+    orders, half = np.arange(1, len(driven) + 1), rounds // 2
+    part, resolved = half * (len(u_r) // rounds), half >= RESOLVED
+    whole, first, last = (
+        np.apply_along_axis(spectrum, 0, signals).T
+        for signals in (u_r, u_r[: part or None], u_r[-part:])
+    )
+    on_order = _around(whole, rounds * orders, (RESOLVED - 1) * resolved)
+    width = int(HALF_ORDER * rounds)
+    along = _around(whole, rounds * orders, width)  # as ``amplitude``
+    along *= on_order > _around(whole, rounds * orders, width + RESOLVED * resolved) / 2
+    kept = np.zeros_like(whole)
+    if resolved:
+        free = np.exp(-np.pi * zeta * rounds * np.arange(last.shape[1]) / half)
+        lasting = last > first * np.minimum((1 + free) / 2, LASTS)
+        rubs = driven & (last > first * (free + RUBS * (1 - free)))[:, half * orders]
+        along *= rubs | lasting[:, half * orders]
+        bins = np.arange(1, rounds * len(orders))
+        from_order = bins - rounds * np.rint(bins / rounds).astype(int)
+        near = np.rint(bins * half / rounds).astype(int)
+        near += (near % half == 0) * np.sign(from_order)  # beside an order, not on it
+        top = (whole[:, bins] > whole[:, bins - 1]) & (whole[:, bins] >= whole[:, bins + 1])
+        off = top & (np.abs(from_order) >= RESOLVED) & lasting[:, near]
+        kept[:, bins] = whole[:, bins] * (off & (whole[:, bins] > on_order.max(axis=1)[:, None]))
+    beside = kept.max(axis=1)
+    order = np.where(beside > 0, kept.argmax(axis=1) / rounds, np.nan)
+    largest = max(along[0].max(), beside[0])
+    return Lines(along, beside, order, bool(resolved and largest < whole[0, 1:].max()))
+
+
+def _around(
+    spectra: NDArray[np.float64], bins: NDArray[np.int64], width: int
+) -> NDArray[np.float64]:
+    """Largest amplitudes (places, bins) within a ``width`` of the ``bins``."""
+    return spectra[:, bins[:, None] + np.arange(-width, width + 1)].max(axis=-1)
+
+
 def amplitude(
-    spectra: NDArray[np.floating], rounds: int, k: int | None = None
+    spectra: NDArray[np.floating], rounds: int, k: float | None = None
 ) -> NDArray[np.floating]:
     """||Y|| (...): largest amplitude of ``spectra`` (..., bins) over ``rounds``, without the mean.
 
-    With ``k``, the largest within 0.25 of that engine order. nan where a run has no spectrum.
+    With ``k``, the largest within 0.25 of that engine order; of a line on no integer order, f /
+    Omega = k, of bins that are on none. nan where a run has no spectrum.
 
     >>> spectra = np.array([[9.0, 0.1, 0.2, 0.3, 5.0], [9.0, 0.4, 6.0, 0.2, 0.1]])  # at two speeds
     >>> amplitude(spectra, rounds=1)
@@ -49,8 +114,12 @@ def amplitude(
     array([5. , 0.1])
     """
     orders = np.arange(spectra.shape[-1]) / rounds
-    near = orders > 0 if k is None else np.abs(orders - k) <= HALF_ORDER
-    return spectra[..., near].max(axis=-1)
+    if k is None:
+        return spectra[..., 1:].max(axis=-1)
+    width = HALF_ORDER
+    if off := abs(k - round(k)):
+        width = min(HALF_ORDER, off - (RESOLVED - 0.5) / rounds)
+    return spectra[..., np.abs(orders - k) <= width].max(axis=-1)
 
 
 def spectrogram(
@@ -169,11 +238,30 @@ def lobe_count(wear: NDArray[np.float64]) -> int:
     >>> lobe_count(np.maximum(1e-5 * np.cos(3 * theta), 0))
     3
     """
-    from scipy.signal import find_peaks
-
     if wear.max() <= 0:
         return 0
     smooth = blurred(wear, LOBE_BLUR)
     start = int(smooth.argmin())  # cut the circle where wear is least: no lobe is split
     unrolled = np.concatenate([np.roll(smooth, -start), smooth[start : start + 1]])
-    return len(find_peaks(unrolled, prominence=LOBE_PROMINENCE * smooth.max())[0])
+    return int((maxima(unrolled)[1] >= LOBE_PROMINENCE * smooth.max()).sum())
+
+
+def maxima(values: NDArray[np.float64]) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    """Places of the inner maxima of ``values`` (n,), and by how much each stands out.
+
+    The prominence of topography: down to the higher of the lowest values on both sides, on the way
+    to a higher one or to the end. That of ``scipy.signal.find_peaks``, whose import takes longer
+    than most jobs spend on all their maxima.
+
+    >>> maxima(np.array([0.0, 3.0, 1.0, 2.0, 0.0]))
+    (array([1, 3]), array([3., 1.]))
+    """
+
+    def lowest(outward: NDArray[np.float64]) -> float:
+        """Lowest value of those ``outward`` from a maximum before the first that is higher."""
+        higher = np.flatnonzero(outward > outward[0])
+        return outward[: higher[0] if len(higher) else None].min()
+
+    tops = 1 + np.flatnonzero((values[1:-1] > values[:-2]) & (values[1:-1] >= values[2:]))
+    bases = [max(lowest(values[top::-1]), lowest(values[top:])) for top in tops]
+    return tops, values[tops] - np.array(bases)

@@ -63,6 +63,8 @@ class Outcome:
     # xi of the edge whose motion is told: 1/16, or 15/16 where that moves more on a casing that
     # tapers; half the range of u_t at both in the last revolution (2,), m, where it is known
     edge: float = EDGES[0]
+    # (samples, places), m, as ``u_r`` in the revolutions of the spectrum, at ``JUDGED``
+    judged: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 0)))
     u_t: NDArray[np.float64] = field(default_factory=lambda: np.empty(0))
 
     @property
@@ -91,7 +93,10 @@ def _start(
 ) -> tuple[list[NDArray[np.float64]], Callable, Callable[..., tuple[Any, ...]]]:
     """Room for the outputs, the kernel, and its arguments: a blade at rest over an unworn liner."""
     strips, zeta = setup.strips, scene.damping_ratio
-    rounds, until = scene.rounds, scene.until
+    rounds, until, record = scene.rounds, scene.until, scene.record
+    always = (
+        until or record.history
+    )  # read all outputs, not only in the revolutions of the spectrum
     rows = rows_of(setup.Phi_b, setup.Phi_t, setup.Phi_lean)
     scheme = SCHEMES[scene.stepping.scheme].coefficients(setup.omega, rows, zeta, setup.h)
     if (mu := scene.contact.friction) is not None:
@@ -109,7 +114,9 @@ def _start(
     def arguments(done: int, before: int = 0) -> tuple[Any, ...]:
         """Of the kernel in revolution ``done``, from 0, after ``before`` of another run."""
         rows = [array[_row(done, len(array) - 1, rounds, until)] for array in kept]
-        recorded = Recorded(*rows, Phi=Phi_out, weights=weights)
+        read = always or done >= rounds - record.rounds_of_spectrum
+        Phi = Phi_out if read else Phi_out[: len(setup.edges)]
+        recorded = Recorded(*rows, Phi=Phi, weights=weights)
         return scheme, strips, state, recorded, ramp, setup.bound, before + done, setup.steps
 
     with compiling(scene.liner.law):
@@ -181,7 +188,9 @@ def march(scene: Scene, setup: Setup, start: FinalState | Worn | None = None) ->
     to_the_end, wanted = status in WITH_RESULT, scene.record.end or scene.speeds.in_turn
     place = (np.nan, np.nan) if to_the_end else _place(setup, state, end, node, step, total)
     u_r, forces, states = (_in_order(array[1:], done, scene.until) for array in kept)
-    shown = [moves, *range(len(setup.edges), len(setup.Phi_out))]
+    judged = len(setup.Phi_out) - len(scene.record.chord)
+    shown, u_r = [moves, *range(judged, len(setup.Phi_out))], u_r.reshape(-1, u_r.shape[2])
+    of_spectrum = least * scene.record.samples_per_round
     timing = samples[:, len(setup.Phi_out) :] if end == RUNNING else np.empty((1, 0))
     return Outcome(
         status=status,
@@ -189,7 +198,8 @@ def march(scene: Scene, setup: Setup, start: FinalState | Worn | None = None) ->
         xi=place[0],
         theta=place[1],
         facts=facts,
-        u_r=u_r.reshape(-1, u_r.shape[2])[:, shown],
+        u_r=u_r[:, shown],
+        judged=u_r[-of_spectrum:, :judged],
         states=states.reshape(-1, states.shape[2])[:, : len(setup.Phi)] @ setup.Phi.T,
         ends=setup.places.ends,
         wear=strips.thickness * state.eps_p,

@@ -10,7 +10,7 @@ from numba.core import errors
 from numpy.typing import NDArray
 
 from geometry.project import UserError, known
-from geometry.tip import EDGES
+from geometry.tip import EDGES, JUDGED
 from rom.model import Rom
 from rom.polynomial import evaluate
 from simulate.contact.gaps import gaps_at, given_gaps, growth_fault, lean_of_gaps
@@ -58,7 +58,8 @@ class Setup:
     Phi_b: NDArray[np.float64]  # (m, n), their u_r - s u_z over the strips, P Phi
     Phi_t: NDArray[np.float64]  # (m, n), the tangential ones; (0, n) for radial contact
     Phi_lean: NDArray[np.float64]  # (m, n), of the edge ahead less the edge behind; (0, n): of one
-    Phi_out: NDArray[np.float64]  # (edges + places, n), u_r - s u_z at the outputs
+    # (outputs, n), u_r - s u_z at the edges, with a spectrum at all of ``JUDGED``; of the history
+    Phi_out: NDArray[np.float64]
     edges: tuple[float, ...]  # xi of the first of them: 1/16; where the casing tapers 15/16 too
     Phi_timing: NDArray[np.float64]  # (2, n), u_t at both edges there; else (0, n)
     Phi_gauges: NDArray[np.float64]  # (2 gauges, n): strain along gauges, 1, then stress, Pa
@@ -111,7 +112,8 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
     _check_start(scene.casing, strips)
     tapers = places.slope.any()
     edges = EDGES if tapers else EDGES[:1]
-    outputs = np.array([*edges, *scene.record.chord])
+    judged = JUDGED if scene.record.spectrum_rounds else edges
+    outputs = np.array([*judged, *scene.record.chord])
     return Setup(
         Omega=Omega,
         h=h,

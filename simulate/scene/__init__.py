@@ -1,11 +1,19 @@
 """Input of a user: scenes, their tables and designs, the laws of the liner."""
 
-from simulate.scene.casing import LEADING, TRAILING, Casing, Clearance, Gaps, Harmonic
+from simulate.scene.casing import (
+    HIGHEST_ORDER,
+    LEADING,
+    TRAILING,
+    Casing,
+    Clearance,
+    Gaps,
+    Harmonic,
+    side_bands,
+)
 from simulate.scene.contact import Contact, Profile
 from simulate.scene.integrator import CentralDifference, PiecewiseExact
 from simulate.scene.liner import STRIPS, Liner
 from simulate.scene.record import (
-    BESIDE,
     DYING_OUT,
     GROWING,
     STEADY,
@@ -19,9 +27,9 @@ from simulate.scene.scene import OF_LAST_ROUNDS, Scene, fault_of_blade
 from simulate.scene.speeds import OF_RPM, OVER_F1, RAD_S, Speeds
 
 __all__ = [
-    "BESIDE",
     "DYING_OUT",
     "GROWING",
+    "HIGHEST_ORDER",
     "LEADING",
     "OF_LAST_ROUNDS",
     "OF_RPM",
@@ -47,4 +55,5 @@ __all__ = [
     "Scene",
     "Speeds",
     "fault_of_blade",
+    "side_bands",
 ]

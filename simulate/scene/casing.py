@@ -1,7 +1,9 @@
 """Casing of a scene: the gap that it leaves, and its distortion over the angle and over time."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
-from math import ceil, radians
+from itertools import product
+from math import ceil, gcd, radians
 from typing import Annotated, ClassVar, Literal
 
 import numpy as np
@@ -26,6 +28,9 @@ IN_M = "in m: 0.1 mm is 1.0e-4"
 OVER_SPAN = "over the span: 0.02 % of it is 2.0e-4"
 
 MOST_ROUNDS = 100_000
+COUNTS = 0.05  # of the largest harmonic of a table: those below are noise
+HIGHEST_ORDER = 200  # of harmonics, and of the engine orders along which responses are sought
+CASING, SIDE_BAND = "casing", "side band"  # what excites an engine order
 
 # bounds detect wrong units; ``hints`` of the models name the likely slip
 Factor = Annotated[float, Field(ge=0, le=1e4)]
@@ -109,14 +114,17 @@ class Gaps:
 class Harmonic(Settings):
     """One harmonic of the casing, amplitude cos(order (theta - speed t) + phase), inward."""
 
-    either: ClassVar = [("amplitude_m", "amplitude_gaps")]
+    either: ClassVar = [("amplitude_um", "amplitude_m", "amplitude_gaps")]
     hints: ClassVar = {
         "amplitude_m": IN_M,
         "amplitude_gaps": "over the gap: 150 % of it is 1.5",
         "phase_deg": "in degrees",
     }
 
-    order: int = Field(ge=0, le=200, description="Nodal diameters")
+    order: int = Field(ge=0, le=HIGHEST_ORDER, description="Nodal diameters")
+    amplitude_um: float | None = Field(
+        default=None, ge=0, le=1e6 * LARGEST_DEPTH, description="Amplitude (um)"
+    )
     amplitude_m: float | None = Field(
         default=None, ge=0, le=LARGEST_DEPTH, description="Amplitude (m)"
     )
@@ -144,6 +152,8 @@ class Harmonic(Settings):
 
     def size(self, gap: float) -> float:
         """Amplitude, m; ``gap`` at xi = 1/16 in m."""
+        if self.amplitude_um is not None:
+            return 1e-6 * self.amplitude_um
         return _length(self.amplitude_m, self.amplitude_gaps, gap)
 
     def turn(self, time: float) -> float:
@@ -156,6 +166,11 @@ class Harmonic(Settings):
         """Distortion (m), inward, at ``theta`` (rad); ``gap`` at xi = 1/16 in m, time in s."""
         angle = self.order * theta - self.turn(time) + radians(self.phase_deg)
         return self.size(gap) * np.cos(angle)
+
+
+def side_bands(k: int, harmonics: Iterable[int]) -> set[int]:
+    """Orders k +- n that each of the casing's ``harmonics`` n couples to engine order ``k``."""
+    return {band for n in harmonics for band in (k - n, k + n) if band > 0}
 
 
 class Casing(Settings):
@@ -250,12 +265,30 @@ class Casing(Settings):
 
     @property
     def orders(self) -> set[int]:
-        """Engine orders with which harmonics that stand excite a blade."""
+        """Engine orders of the harmonics that stand, of a table of those above ``COUNTS``."""
+        if self.table is not None:
+            theta = np.pi * np.arange(4 * HIGHEST_ORDER) / (2 * HIGHEST_ORDER)
+            sizes = np.abs(np.fft.rfft(self.table.inward(theta)))[1 : HIGHEST_ORDER + 1]
+            return {int(n) + 1 for n in np.flatnonzero(sizes > COUNTS * sizes.max())}
         return {
             harmonic.order
             for harmonic in self.harmonics or ()
-            if harmonic.order and not harmonic.speed_rad_s
+            if harmonic.order and not harmonic.speed_rad_s and harmonic.size(1.0)
         }
+
+    @property
+    def excites(self) -> dict[int, str]:
+        """What excites each engine order: a harmonic, or else a side band of one."""
+        bands = {k for n, m in product(self.orders, repeat=2) for k in side_bands(n, {m})}
+        return dict.fromkeys(bands, SIDE_BAND) | dict.fromkeys(self.orders, CASING)
+
+    def drives(self, orders: NDArray[np.int64]) -> NDArray[np.bool_]:
+        """Whether contact with the unworn casing can have each of the ``orders`` (k,).
+
+        A motion that repeats from lobe to lobe has multiples of the orders' common divisor alone.
+        """
+        divisor = gcd(*self.orders)
+        return orders % divisor == 0 if divisor else np.zeros(len(orders), bool)
 
     def inward(
         self, theta: NDArray[np.float64], gap: float, time: float = 0.0

@@ -1,14 +1,14 @@
-"""Outputs of a scene, and the peaks that are found in them."""
+"""Outputs of a scene, and the peaks around which speeds are added."""
 
 from typing import Annotated, ClassVar
 
 from pydantic import Field
 
 from geometry.project import Settings, SettingsError, checked
+from simulate.scene.casing import HIGHEST_ORDER
 
 STEADY, GROWING, DYING_OUT, TOO_SHORT = "steady", "growing", "dying out", "too short to say"
 TRENDS = (STEADY, GROWING, DYING_OUT, TOO_SHORT)  # of a run, at its end (``marching.trend``)
-BESIDE = 2  # engine orders beside that of a peak, with which it is compared
 ROSETTE = (0, 45, 90)  # deg, of its grids from the first, anticlockwise seen from outside
 
 
@@ -93,6 +93,11 @@ class Record(Settings):
         return self.spectrum_rounds or 1
 
     @property
+    def highest_order(self) -> int:
+        """Highest of the engine orders along which responses are sought."""
+        return min(HIGHEST_ORDER, self.samples_per_round // 2 - 1)
+
+    @property
     def rounds_of_states(self) -> int:
         """Last revolutions whose reduced displacements are kept."""
         return self.states_rounds or (1 if self.motion else 0)
@@ -136,13 +141,19 @@ class Record(Settings):
 
 
 class Peaks(Settings):
-    """Response peaks, around which the sweep adds speeds."""
+    """Responses that stand out, around which the sweep adds speeds."""
 
     hints: ClassVar = {"within_over_f1": "over f1(0), like speeds.over_f1: 4.0e-4 is usual"}
 
-    orders: list[Annotated[int, Field(ge=1, le=200)]] = Field(
-        min_length=1, description="Engine orders around whose peaks speeds are added"
+    orders: list[Annotated[int, Field(ge=1, le=HIGHEST_ORDER)]] | None = Field(
+        default=None,
+        min_length=1,
+        description="Engine orders around whose peaks of mode 1 speeds are added; without them "
+        "around every response that stands out",
     )
     within_over_f1: float = Field(
         ge=1e-6, le=1, description="Largest spacing of the speeds around each peak, over f1(0)"
+    )
+    most: int = Field(
+        default=60, ge=1, le=10_000, description="Most speeds that are added without `orders`"
     )

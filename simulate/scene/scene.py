@@ -13,7 +13,7 @@ from simulate.scene.casing import MOST_ROUNDS, Casing, Clearance, Gaps
 from simulate.scene.contact import Contact
 from simulate.scene.integrator import Integrator
 from simulate.scene.liner import Liner
-from simulate.scene.record import BESIDE, Peaks, Record
+from simulate.scene.record import Peaks, Record
 from simulate.scene.speeds import Positive, Speeds
 
 
@@ -244,11 +244,12 @@ class Scene(SettingsFile):
                 "are found in the spectrum: set record.spectrum_rounds", key="peaks"
             )
         samples = self.record.samples_per_round
-        highest, allowed = max(self.peaks.orders) if self.peaks else 0, samples // 2 - BESIDE
+        highest = max((self.peaks and self.peaks.orders) or [0])
+        allowed = self.record.highest_order
         if highest > allowed:
             raise SettingsError(
-                f"allowed up to {allowed}, half of record.samples_per_round = {samples} less "
-                f"{BESIDE}, which the spectrum holds",
+                f"allowed up to {allowed}, less than half of record.samples_per_round = {samples}, "
+                "which the spectrum holds",
                 key="peaks.orders",
                 value=highest,
                 allowed={"le": allowed},

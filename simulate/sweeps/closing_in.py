@@ -5,18 +5,20 @@ Runs at given speeds (``over_speeds``) do not depend on how peaks are found.
 
 from collections.abc import Callable
 from functools import partial
+from math import inf
+from typing import Any
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from geometry.project import Say, silent
+from geometry.project import Say, known, silent
 from rom.model import Rom
 from simulate.errors.accuracy import Choice
 from simulate.scene import Peaks, Scene
 from simulate.sweeps.dataset import checks, merge
 from simulate.sweeps.over_speeds import as_sweep, at_speeds, tell_before
-from simulate.sweeps.peak import Peak, peak_of
+from simulate.sweeps.peak import Responses, along_order, rise
 from simulate.sweeps.plausible import doubts_of_runs, warn_of
 
 
@@ -54,15 +56,18 @@ def close_in(
 ) -> xr.Dataset:
     """``runs`` at the scene's speeds, and more runs around the peaks that it asks for.
 
-    The spacing of the speeds on both sides of each peak is halved until it is at most
-    ``scene.peaks.within_over_f1``. Limits that the runs exceed are warned of.
+    Limits that the runs exceed are warned of.
     """
-    first_runs, added = runs, []
-    while scene.peaks and (
-        speeds := halfway(scene.peaks, rom.f1, runs["speed"].values, partial(peak_of, runs, rom))
-    ):
+    first_runs, added, seen = runs, [], {}
+    while scene.peaks:
+        of, along_of = Responses.of(runs, rom), partial(along_order, runs)
+        speeds = further(scene.peaks, runs["speed"].values, of, along_of, seen, len(added))
+        if not speeds:
+            break
         new = at_speeds(scene, rom, speeds, report, choice, start)
         runs, added = merge([runs, as_sweep(new, choice=choice, check=False)]), added + new
+    if scene.peaks and not scene.peaks.orders and len(added) == scene.peaks.most:
+        report(f"peaks.most: {len(added)} speeds are added: more may raise peaks")
     if added:
         runs = merge([first_runs, as_sweep(added, report, choice)])
     report(checks(runs))
@@ -70,24 +75,40 @@ def close_in(
     return runs
 
 
-def halfway(
+def further(
     peaks: Peaks,
-    f1: float,
     Omega: NDArray[np.float64],
-    peak_at: Callable[[int], Peak | None],
+    of: Responses,
+    along_of: Callable[[int], NDArray[np.float64]],
+    seen: dict[Any, tuple[float, float]],
+    added: int,
 ) -> list[float]:
-    """Speeds (rad/s) halfway between each peak and its neighbours that are too far away.
+    """Speeds (rad/s) halfway between each peak and its neighbours, ascending.
+
+    Where a neighbour is farther than asked for. Without ``orders`` also where the last turn raised
+    a peak by more than the resonance through it and its neighbours had said; those of the highest
+    peaks, if there are more than may be ``added``.
 
     Parameters
     ----------
-    peaks : the peaks that the scene asks for
-    f1 : Hz, first natural frequency at rest
+    peaks : what the scene asks for
     Omega : (speeds,), rad/s, ascending
-    peak_at : peak among these speeds along an engine order
+    of, along_of : responses at these, and as of ``Responses.near_f1``
+    seen : by order and modes of each its amplitude, gaps, in the last turn, and the relative rise
+        from it to the top of the resonance; this turn's are put in
+    added : number of speeds that are added already
     """
-    speeds = set()
-    for peak in filter(None, map(peak_at, peaks.orders)):
-        near = Omega[max(peak.index - 1, 0) : peak.index + 2]
-        far = np.diff(near) > peaks.within_over_f1 * 2 * np.pi * f1 * (1 + 1e-9)
-        speeds |= set(((near[:-1] + near[1:]) / 2)[far].tolist())
-    return sorted(speeds)
+    speeds = dict[float, None]()
+    asked = [of.near_f1(k, along_of) for k in peaks.orders or ()]
+    found = filter(None, asked) if peaks.orders else of.stand_out()
+    for peak in sorted(found, key=lambda peak: -(peak.amplitude or 0.0)):
+        three, height = slice(max(peak.index - 1, 0), peak.index + 2), peak.amplitude or 0.0
+        near = Omega[three]
+        far = np.diff(near) > peaks.within_over_f1 * of.rom.omega1 * (1 + 1e-9)
+        if not peaks.orders:
+            before, said = seen.get((peak.k, peak.modes), (height, inf))
+            far |= height > before * (1 + said)
+            along = of.series(known(peak.k, "k"), peak.place)[three]
+            seen[peak.k, peak.modes] = height, rise(near, along) if len(near) == 3 else inf
+        speeds |= dict.fromkeys(((near[:-1] + near[1:]) / 2)[far].tolist())
+    return sorted([*speeds][: None if peaks.orders else peaks.most - added])

@@ -14,6 +14,7 @@ from math import ceil
 import numpy as np
 
 from geometry.project import WARNING, duration
+from geometry.tip import JUDGED
 from rom.model import Rom
 from simulate.contact.places import mean_footprint
 from simulate.contact.strips import rods_in_footprint
@@ -41,6 +42,7 @@ class Cost:
     until: bool  # at most so many
     steps: float  # per revolution, mean over the speeds
     second_runs: list[Neighbour]  # each run
+    more: int  # speeds at most that are added, where it is known
     all_steps: float  # of all runs
     seconds: float  # on one core
     memory: float  # bytes, of all that is held at its end
@@ -53,8 +55,9 @@ class Cost:
         names = " and ".join(run.name for run in self.second_runs)
         second_runs = f", each with {names}" if names else ""
         rounds = f"{'at most ' * self.until}{self.rounds} revolutions"
+        more = f" and at most {self.more} more" * bool(self.more)
         said = [
-            f"{self.speeds} speeds of {rounds} of {self.steps:.6g} steps{second_runs}: "
+            f"{self.speeds} speeds{more} of {rounds} of {self.steps:.6g} steps{second_runs}: "
             f"{self.all_steps:.2g} steps, some {duration(self.seconds)} on one core, "
             f"{self.memory / 1e9:.2g} GB of memory"
         ]
@@ -93,6 +96,7 @@ def cost(scene: Scene, rom: Rom, speeds: int | None = None) -> Cost:
         until=scene.until is not None,
         steps=steps,
         second_runs=second_runs,
+        more=scene.peaks.most if scene.peaks and not scene.peaks.orders else 0,
         all_steps=all_steps,
         seconds=all_steps * _of_step(scene.liner, rom, steps),
         memory=_memory(speeds, scene.record, scene.liner, scene.rounds, rom.n),
@@ -120,6 +124,7 @@ def _memory(speeds: int, record: Record, liner: Liner, rounds: int, n: int) -> f
         + DOUBLE * ((record.states_rounds or 0) * samples * n + n**2)
         + SINGLE * record.rounds_of_spectrum * samples * len(record.grids)
     )
-    u_r = record.rounds_of_u_r(rounds) * samples * (1 + len(record.chord))
+    judged = len(JUDGED) if record.spectrum_rounds else 1
+    u_r = record.rounds_of_u_r(rounds) * samples * (judged + len(record.chord))
     marched = DOUBLE * (2 * rods + u_r + 2 * record.rounds_of_states * samples * n)
     return speeds * held + marched

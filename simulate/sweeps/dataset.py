@@ -26,7 +26,7 @@ from geometry.project import (
     version,
 )
 from geometry.stored import read, write
-from geometry.tip import EDGES
+from geometry.tip import EDGES, JUDGED
 from rom.model import Rom
 from rom.polynomial import evaluate
 from simulate.contact.gaps import given_gaps
@@ -36,6 +36,7 @@ from simulate.errors.loads import torque_of_rounds
 from simulate.errors.neighbours import GAP_CHANGE
 from simulate.errors.observables import NUMBERS, last_spectrum
 from simulate.errors.run import Run
+from simulate.errors.signals import Lines, lines
 from simulate.marching import STATUSES, WITH_RESULT, FinalState, every, strip_stiffness
 from simulate.marching.friction import growth_rate, mu_crit
 from simulate.marching.setup import sliding_modes, with_lean
@@ -105,6 +106,10 @@ VARIABLES = {  # of each run: dimensions beside the speed, unit, meaning
         "amplitude of u_r, xi = 1/16, over the last {record.spectrum_rounds} revolutions",
     ),
     "largest": ("", "m", "largest u_r, xi = 1/16, in the revolutions of the spectrum"),
+    "along": ("judged order", "m", "amplitude of u_r along engine orders, where it lasts"),
+    "beside": ("judged", "m", "largest line on no integer order that lasts; 0 without one"),
+    "beside_order": ("judged", "1", "f / Omega of that line; nan without one"),
+    "free": ("", "1", "1 where the largest line at xi = 1/16 is a free vibration of the start"),
     "history": (
         "chord history_time",
         "m",
@@ -137,6 +142,8 @@ COORDINATES = {  # dimensions, unit, meaning
     "gap": ("strip", "m", "initial gap g0"),
     "theta": ("theta", "rad", "angle of the rod"),
     "engine_order": ("engine_order", "1", "frequency over Omega"),
+    "judged": ("judged", "1", "chord fraction at which responses are judged"),
+    "order": ("order", "1", "engine order"),
     "chord": ("chord", "1", "chord fraction of the place"),
     "history_time": ("history_time", "1", "revolutions since the start"),
     "time": ("time", "1", "revolutions since the start"),
@@ -524,7 +531,7 @@ def _asked_for(run: Run) -> dict[str, Any]:
     scene, record = run.scene, run.scene.record
     outputs = (
         (record.wear, _of_wear),
-        (record.spectrum_rounds, _of_spectrum),
+        (record.spectrum_rounds, of_spectrum),
         (record.history, _of_history),
         (record.states_rounds, _of_states),
         (record.contact_force, _of_forces),
@@ -567,15 +574,31 @@ def _of_states(run: Run) -> dict[str, Any]:
     }
 
 
-def _of_spectrum(run: Run) -> dict[str, Any]:
-    """Amplitudes and largest value of u_r over the spectrum's revolutions; nan without a result."""
+def of_spectrum(run: Run) -> dict[str, Any]:
+    """Amplitudes and largest value of u_r over the spectrum's revolutions; nan without a result.
+
+    And the lines that last, at the places where responses are judged.
+    """
     record, outcome = run.scene.record, run.outcome
-    samples = record.rounds_of_spectrum * record.samples_per_round
+    rounds, zeta = record.rounds_of_spectrum, run.scene.damping_ratio
+    samples, orders = rounds * record.samples_per_round, np.arange(1, record.highest_order + 1)
     values, largest = np.full(samples // 2 + 1, np.nan, np.float32), np.nan
+    unknown = np.full(len(JUDGED), np.nan)
+    found = Lines(np.full((len(JUDGED), len(orders)), np.nan), unknown, unknown, False)
     if outcome.status in WITH_RESULT:
         values, largest = last_spectrum(run), outcome.u_r[-samples:, 0].max()
-    orders = np.arange(len(values)) / record.rounds_of_spectrum
-    return {"spectrum": values, "largest": largest, "engine_order": orders}
+        found = lines(outcome.judged, rounds, zeta, run.scene.casing.drives(orders))
+    return {
+        "spectrum": values,
+        "largest": largest,
+        "engine_order": np.arange(len(values)) / rounds,
+        "along": found.along.astype(np.float32),
+        "beside": found.beside,
+        "beside_order": found.order,
+        "free": int(found.free),
+        "judged": [*JUDGED],
+        "order": orders,
+    }
 
 
 def _of_forces(run: Run) -> dict[str, Any]:

@@ -10,6 +10,8 @@ from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
+from itertools import chain
+from operator import attrgetter
 from pathlib import Path
 from time import monotonic
 from typing import Annotated, Any, Self
@@ -18,6 +20,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from geometry.blade import ORDERS
 from geometry.project import (
     ProvenanceError,
     Say,
@@ -40,10 +43,10 @@ from simulate.marching import STATUSES, WITH_RESULT, check_scene
 from simulate.scene import LEADING, TRENDS, Scene
 from simulate.scene.design import Design, refuse, value_at
 from simulate.sweeps import dataset
-from simulate.sweeps.closing_in import halfway
+from simulate.sweeps.closing_in import further
 from simulate.sweeps.dataset import entry, require_numbers
 from simulate.sweeps.over_speeds import check_steps, march_one, set_up
-from simulate.sweeps.peak import ORDERS, Peak, crossing, peak_among, sidebands_of
+from simulate.sweeps.peak import Responses, only_at
 from simulate.sweeps.plausible import doubts, warn_of
 
 SAVED_EVERY = 120.0  # s: lost at most when the process is killed, and one row
@@ -94,8 +97,8 @@ class Engine:
     rom: Rom
     choice: Choice | None
     scenes: list[Scene]  # of the rows, as they are run
-    orders: list[int]  # engine orders whose amplitudes are kept
-    crossings: dict[int, float]  # of f1 with the orders at which peaks are sought, over f1(0)
+    orders: list[int]  # engine orders whose amplitudes are kept: 1, 2, ...
+    sought: list[int]  # those whose peaks its rows tell
 
     @classmethod
     def of(cls, design: Design, rom: Rom, choice: Choice | None = None) -> Self:
@@ -110,10 +113,11 @@ class Engine:
         """
         choice = choice and replace(choice, runs={})  # the pilot's runs are those of the base
         scenes = [choice.scene(scene) for scene in design.scenes] if choice else design.scenes
-        asked = {k for scene in scenes if scene.peaks for k in scene.peaks.orders}
+        asked = {k for scene in scenes for k in (scene.peaks and scene.peaks.orders) or ()}
         sought = sorted({*ORDERS, *asked})
-        kept = sorted({order for k in sought for order in (k, *sidebands_of(k))})
-        engine = cls(design, rom, choice, scenes, kept, {k: crossing(rom, k) for k in sought})
+        farthest = max(chain(*(scene.casing.orders for scene in scenes)), default=0)
+        highest = min(sought[-1] + farthest, *(scene.record.highest_order for scene in scenes))
+        engine = cls(design, rom, choice, scenes, [*range(1, highest + 1)], sought)
         engine.require(range(len(scenes)), partial(check_scene, rom=rom))
         warnings: dict[str, str] = {}
         for row, scene in enumerate(scenes, start=1):
@@ -159,16 +163,18 @@ class Engine:
         And the steps that checks of other rows may take, with the ``budget`` of those before.
         """
         runs, table, speeds = [], self._table([]), scene.speeds.omega(self.rom.f1).tolist()
+        seen = {}
         while speeds:
             new = [
                 march_one(set_up(scene, self.rom, Omega, self.choice), self.choice)
                 for Omega in speeds
             ]
             runs, table = runs + new, np.sort(np.append(table, self._table(new)), order="speed")
-            speeds = (
-                halfway(scene.peaks, self.rom.f1, table["speed"], self.peaks_among(table, scene))
-                if scene.peaks
-                else []
+            if not scene.peaks:
+                break
+            of, added = self.responses(table, scene), len(runs) - scene.speeds.count
+            speeds = further(
+                scene.peaks, table["speed"], of, partial(of.series, place=LEADING), seen, added
             )
         runs, budget = checked(runs, scene.checked_share, budget)
         return self._table(runs), budget
@@ -178,15 +184,11 @@ class Engine:
         numbers = np.array([_numbers(run, self.orders) for run in runs], self.row_type)
         return np.sort(numbers, order="speed")
 
-    def peaks_among(self, runs: NDArray, scene: Scene) -> Callable[[int], Peak | None]:
-        """Function that finds the peak of a row along an engine order."""
-        speeds, gap = runs["speed_over_f1"], given_gaps(scene.gaps, self.rom, LEADING)
-
-        def along(k: int) -> NDArray[np.float64]:
-            """Amplitude (speeds,) along engine order ``k``, gaps."""
-            return runs["amplitudes"][:, self.orders.index(k)].astype(float) / float(gap)
-
-        return lambda k: peak_among(speeds, along, k, self.crossings[k], scene.contact.along)
+    def responses(self, runs: NDArray, scene: Scene) -> Responses:
+        """Amplitudes of a row along engine orders, at the place of u_r alone, gaps."""
+        told = np.zeros(len(runs), int)
+        along = runs["amplitudes"].astype(float) / given_gaps(scene.gaps, self.rom, LEADING)
+        return Responses(self.rom, scene, runs["speed_over_f1"], told, *only_at(told, along))
 
 
 def _numbers(run: Run, orders: Sequence[int]) -> tuple:
@@ -311,7 +313,7 @@ def row_table(engine: Engine, runs: xr.Dataset) -> xr.Dataset:
     for column in engine.design.columns:
         values = [value_at(scene, column) for scene in engine.design.scenes]
         variables[column] = "row", _plain(values), {"long_name": "given"}
-    coords = {"row": np.arange(1, len(rows) + 1), "order": sorted(engine.crossings)}
+    coords = {"row": np.arange(1, len(rows) + 1), "order": engine.sought}
     attrs = _attributes(engine)
     if sobol := engine.design.sobol:
         meaning = "factors on values of the scene"
@@ -352,8 +354,10 @@ NO_PEAK = {
 
 def _of_row(engine: Engine, scene: Scene, runs: NDArray) -> dict[str, Any]:
     """Numbers of a row, and of its peaks and the runs that stand there, by engine order."""
-    peak_at = engine.peaks_among(runs, scene)
-    peaks = [peak_at(k) for k in sorted(engine.crossings)]
+    of = engine.responses(runs, scene)
+    along = partial(of.series, place=LEADING)
+    of_order = {peak.k: peak for peak in sorted(of.stand_out(), key=attrgetter("amplitude"))}
+    peaks = [of_order.get(k) or of.near_f1(k, along) for k in engine.sought]
     at_peaks = [runs[peak.index] if peak else NO_PEAK for peak in peaks]
     return {
         **{name: [getattr(peak, key, np.nan) for peak in peaks] for name, key in OF_PEAK.items()},

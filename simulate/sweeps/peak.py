@@ -1,57 +1,57 @@
-"""Response peaks of a sweep along engine orders, and linear crossings of frequencies with them.
+"""Response peaks of a sweep: along engine orders, and of lines on none.
 
-Speeds are over f1(0), amplitudes over the gap at xi = 1/16. Figures, summaries and claims all use
-these peaks.
+Speeds are over f1(0), amplitudes over the gap at xi = 1/16. Figures, summaries, designs and claims
+all use these peaks. Linear crossings are those of ``crossings``.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
-from itertools import product
-from math import isnan
+from math import inf
+from operator import attrgetter
 from typing import Any, Self
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from geometry.blade import RPM
-from geometry.project import known
+from geometry.blade import MODES, ORDERS
+from geometry.tip import EDGES, JUDGED
 from rom.model import Rom
 from simulate.errors.observables import Numbers
-from simulate.errors.signals import amplitude, leading_gap
-from simulate.scene import BESIDE
+from simulate.errors.signals import amplitude, leading_gap, maxima
+from simulate.scene import LEADING, Scene, side_bands
+from simulate.sweeps.crossings import crossing
 from simulate.sweeps.dataset import scene_of
-from simulate.sweeps.plain import Course, CriticalSpeed
+from simulate.sweeps.plain import NO_CROSSING, Course, mode_name, order_name
 
-ORDERS = range(3, 15)  # engine orders along which peaks are sought, beside those of a scene
 # Speeds over the crossing at which a peak may lie: contact stiffens, a tangential force may soften
 STIFFENED, SOFTENED, HIGHEST = 0.97, 0.93, 1.4
-BEYOND = 1.25  # of Omega_m: no farther than there are frequencies extrapolated
+NEAR = 0.05  # relative distance of two crossings of which a peak may be of either
 PROMINENCE = 0.5  # least prominence of a peak over its height
 LEAST = 0.1  # gaps, least amplitude of a reported peak
 LEAST_AT_END = 1.0  # gaps, least amplitude of a reported peak at an end of the sweep
-SIDEBANDS = (
-    -BESIDE,
-    BESIDE,
-)  # orders coupled to an engine order by the casing's two nodal diameters
+NODE = 0.25  # of the amplitude elsewhere: a place with less is near a node
 
 
 @dataclass(frozen=True)
 class Peak:
-    """Largest response along an engine order near its linear crossing with f1, and its results.
+    """A response that stands out over the speeds along an engine order, and its results.
 
     Or, of a sweep without a peak, its largest response. Without results where none were asked for,
     or the run there has none; those of ``peak_results``.
     """
 
-    k: int | None  # engine order; None without a peak
+    k: float | None  # engine order, or f / Omega of a line on none; None without a peak
     index: int  # of the speed
     Omega_c: float  # critical speed under contact, Eq. (22), over f1(0): a speed of the sweep
     amplitude: float | None = None  # ||Y||, over the gap
-    crossing: float | None = None  # linear, over f1(0)
-    at_end: bool = False  # first or last speed of the sweep: the response may still grow beyond
-    clear: bool = False  # prominent on both sides along its order, and no sideband of another
+    crossing: float | None = None  # linear, over f1(0), from which it rises; None: none explains it
+    # of that crossing; several where theirs are near
+    modes: Sequence[int] = field(default=(), hash=False)
+    place: float = LEADING  # of ``JUDGED``
+    at_end: bool = False  # first or last speed with a result: it may still grow beyond
+    clear: bool = False  # prominent on both sides along its order, and no side band of another
     spacing: float | None = None  # over f1(0), to the further neighbour in the sweep
     status: str = ""
     lobes: int | None = None  # worn there, of the leading eighth; None where no wear is recorded
@@ -68,18 +68,29 @@ class Peak:
     seconds: float = 0.0  # CPU time
 
     @property
-    def over_crossing(self) -> float:
-        """Omega_c over the linear crossing."""
-        return self.Omega_c / known(self.crossing, "crossing")
+    def over_crossing(self) -> float | None:
+        """Omega_c over the linear crossing; None without one."""
+        return self.crossing and self.Omega_c / self.crossing
+
+    @property
+    def name(self) -> str:
+        """Engine order, or f / Omega, and mode."""
+        return " ".join(filter(None, [order_name(self.k), mode_name(self.modes)]))
+
+    @property
+    def rises_from(self) -> str:
+        """How far above its linear crossing it is, in words."""
+        share = self.over_crossing
+        return f"{share:.3f} times the linear crossing" if share else NO_CROSSING
 
     @property
     def reported(self) -> bool:
         """Whether figures and tables name it: it is clear, or high at an end of the sweep."""
         least = LEAST_AT_END if self.at_end else LEAST
-        return (self.at_end or self.clear) and known(self.amplitude, "amplitude") >= least
+        return (self.at_end or self.clear) and (self.amplitude or 0.0) >= least
 
     def plain(self) -> dict[str, Any]:
-        """All fields as plain values; of a peak along an engine order ``over_crossing`` as well."""
+        """All fields as plain values; of a peak ``over_crossing`` as well."""
         return vars(self) | ({"over_crossing": self.over_crossing} if self.k else {})
 
     @classmethod
@@ -88,81 +99,179 @@ class Peak:
         return cls(**{name: value for name, value in plain.items() if name != "over_crossing"})
 
 
-def crossing(rom: Rom, k: int, mode: int = 1, beyond: int = 0) -> float:
-    """Linear crossing of a mode, f(Omega) = k Omega, Eq. (21), over f1(0); nan above Omega_m.
+@dataclass(frozen=True)
+class Responses:
+    """Amplitudes of the runs of a scene, over the gap, at the places where they are judged.
 
-    With a degree ``beyond`` that from Omega_m to ``BEYOND`` times it, of ``Rom.beyond``.
-
-    >>> round(crossing(rom, 4), 2)
-    0.31
+    ``told`` is that of u_r: 1/16, on a casing that tapers the edge that moves more.
     """
-    unit = rom.omega1
-    top = rom.Omega_m / unit
-    omega = rom.beyond(beyond) if beyond else lambda Omega: rom.modes(Omega)[0]
-    ends = (top, BEYOND * top) if beyond else (0.0, top)
-    return crossing_of(lambda speed: omega(speed * unit)[mode - 1] / unit, k, *ends)
+
+    rom: Rom
+    scene: Scene
+    speeds: NDArray[np.float64]  # (speeds,), over f1(0), ascending
+    told: NDArray[np.int64]  # (speeds,), of ``JUDGED``, from 0
+    along: NDArray[np.float64]  # (speeds, places, orders), EO 1, 2, ...; nan without a spectrum
+    beside: NDArray[np.float64]  # (speeds, places), lines on no integer order; 0 without
+    beside_order: NDArray[np.float64]  # (speeds, places), f / Omega of these
+    # ``modes``, from the first, and ``orders`` of which peaks are sought, if not the usual
+    sought: Mapping[Any, Any] = field(default_factory=dict)
+
+    @classmethod
+    def of(cls, runs: xr.Dataset, rom: Rom) -> Self:
+        """Those of a sweep with spectra; of one without `along` at the place of u_r alone."""
+        scene, gap, speeds = scene_of(runs), leading_gap(runs), runs["speed_over_f1"].values
+        told = np.zeros(len(speeds), int)
+        if "place" in runs:
+            told = (runs["place"].values == EDGES[1]).astype(int)
+        if "along" in runs:
+            along, beside = (runs[name].values.astype(float) / gap for name in ("along", "beside"))
+            order = runs["beside_order"].values
+            return cls(rom, scene, speeds, told, along, beside, order, runs.attrs)
+        held = runs["spectrum"].shape[1] // scene.record.rounds_of_spectrum
+        orders = range(1, min(scene.record.highest_order + 1, held))
+        of_told = np.transpose([along_order(runs, k) for k in orders])
+        return cls(rom, scene, speeds, told, *only_at(told, of_told), sought=runs.attrs)
+
+    def series(self, k: float, place: float) -> NDArray[np.float64]:
+        """Amplitude (speeds,) along ``k`` at a place; of a line on no integer order that of all."""
+        at = JUDGED.index(place)
+        return self.along[:, at, int(k) - 1] if k % 1 == 0 else self.beside[:, at]
+
+    def seen(self) -> list[int]:
+        """Engine orders along which the response reaches ``LEAST`` at any speed and place."""
+        return (1 + np.flatnonzero(np.nan_to_num(self.along).max(axis=(0, 1)) >= LEAST)).tolist()
+
+    def stand_out(self) -> list[Peak]:
+        """The reported peaks, speeds ascending; along an order one from each crossing."""
+        asked, harmonics = self.scene.peaks and self.scene.peaks.orders, self.scene.casing.orders
+        sought = {
+            *map(int, np.atleast_1d(self.sought.get("orders", ORDERS))),
+            *harmonics,
+            *(asked or ()),
+        }
+        lines = self.beside * (self.beside_order <= max(sought))
+        found = self._highest(None, lines, 0 * lines)
+        for k in sought & {*self.seen()}:
+            bands = [k_n - 1 for k_n in side_bands(k, harmonics) if k_n <= self.along.shape[2]]
+            others = self.along[:, :, bands].max(axis=2, initial=0.0)
+            found += self._highest(k, self.along[:, :, k - 1], others)
+        return sorted(found, key=attrgetter("index", "k"))
+
+    def _highest(
+        self, k: int | None, along: NDArray[np.float64], others: NDArray[np.float64]
+    ) -> list[Peak]:
+        """The highest reported peak from each crossing; elsewhere than u_r where that has a node.
+
+        One that no crossing explains is the largest response at its speed. ``along``, ``others``
+        (speeds, places): amplitudes along order ``k``, None of lines on none, and the largest of
+        its side bands.
+        """
+        known, by_crossing = np.flatnonzero(np.isfinite(along[:, 0])), {}
+        of_all = np.maximum(self.along.max(axis=(1, 2)), self.beside.max(axis=1))
+        for place, xi in enumerate(JUDGED):
+            lasting = known
+            if k:  # elsewhere nothing is known of the order
+                lasting = known[along[known, place] > 0]
+            for index in map(int, lasting[_stand_out(along[lasting, place])]):
+                height, told = float(along[index, place]), self.told[index]
+                at_node = along[index, told] < NODE * height
+                if height < LEAST or not (place == told or at_node):
+                    continue
+                order = k or round(float(self.beside_order[index, place]), 6)
+                modes, met = self.explain(order, float(self.speeds[index]))
+                peak = Peak(
+                    k=order,
+                    index=index,
+                    Omega_c=float(self.speeds[index]),
+                    amplitude=height,
+                    crossing=met,
+                    modes=modes,
+                    place=xi,
+                    at_end=index in known[[0, -1]],
+                    clear=bool(height >= others[index, place]),
+                )
+                if peak.reported and (met or height >= of_all[index]):
+                    by_crossing.setdefault(modes, []).append(peak)
+        return [max(peaks, key=attrgetter("amplitude")) for peaks in by_crossing.values()]
+
+    def explain(self, k: float, Omega_c: float) -> tuple[tuple[int, ...], float | None]:
+        """Modes from whose linear crossing with ``k`` a peak may rise, and its speed over f1(0).
+
+        The nearest crossing, and modes that cross near it; none and None where there is no such.
+        """
+        lowest = SOFTENED if self.scene.contact.along else STIFFENED
+        modes = range(1, self.sought.get("modes", MODES) + 1)
+        met = {mode: crossing(self.rom, k, mode) for mode in modes}
+        far = {
+            mode: abs(np.log(Omega_c / speed))
+            for mode, speed in met.items()
+            if lowest * speed <= Omega_c <= HIGHEST * speed  # nan does not
+        }
+        if not far:
+            return (), None
+        nearest = met[min(far, key=lambda mode: far[mode])]
+        return tuple(mode for mode in far if abs(met[mode] / nearest - 1) <= NEAR), nearest
+
+    def near_f1(
+        self,
+        k: int,
+        along_of: Callable[[int], NDArray[np.float64]],
+        harmonics: Iterable[int] | None = None,
+    ) -> Peak | None:
+        """Largest response along ``k`` near its crossing with f1; None without a result there.
+
+        ``along_of``: amplitudes (speeds,), over the gap, along an engine order; ``harmonics``:
+        couple ``k`` to its side bands, by default those of the casing.
+        """
+        along, met = along_of(k), crossing(self.rom, k)
+        lowest = SOFTENED if self.scene.contact.along else STIFFENED
+        near = (self.speeds >= lowest * met) & (self.speeds <= HIGHEST * met)
+        inside = np.flatnonzero(near & np.isfinite(along))
+        if len(inside) == 0:
+            return None
+        best, known = int(inside[along[inside].argmax()]), np.flatnonzero(np.isfinite(along))
+        bands = side_bands(k, self.scene.casing.orders if harmonics is None else harmonics)
+        others = [along_of(band)[best] for band in bands if band <= self.along.shape[2]]
+        stands_out = best in known[_stand_out(along[known])]
+        return Peak(
+            k=k,
+            index=best,
+            Omega_c=float(self.speeds[best]),
+            amplitude=float(along[best]),
+            crossing=met,
+            modes=(1,),
+            at_end=best in known[[0, -1]],
+            clear=bool(stands_out and along[best] >= max(others, default=0.0)),
+        )
 
 
-def crossing_of(f: Callable[[float], float], k: int, lowest: float, highest: float) -> float:
-    """Speed from ``lowest`` to ``highest`` at which f(speed) falls below k speed; nan without one.
+def only_at(
+    told: NDArray[np.int64], of_told: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """Arrays of ``Responses`` from amplitudes (speeds, orders) at the places ``told`` alone."""
+    along = np.zeros((len(told), len(JUDGED), of_told.shape[1]))
+    along[np.arange(len(told)), told] = of_told
+    return along, along[:, :, 0] * 0, along[:, :, 0] * 0
 
-    >>> round(crossing_of(lambda speed: 1 + 0.4 * speed**2, 4, lowest=0.0, highest=0.5), 4)
-    0.2566
+
+def _stand_out(along: NDArray[np.float64]) -> NDArray[np.int64]:
+    """Speeds, from 0, at which ``along`` (speeds,) falls by ``PROMINENCE`` of itself on both sides.
+
+    At an end, on the inner side; of one speed nothing stands out.
     """
-    from scipy.optimize import brentq  # a slow import, which many jobs do not need
-
-    def above(speed: float) -> float:
-        """How far f is above the line k speed."""
-        return f(speed) - k * speed
-
-    if not above(highest) < 0 <= above(lowest):
-        return float("nan")
-    return float(brentq(above, lowest, highest, xtol=1e-9))
+    before = len(along) - 1
+    mirrored = np.concatenate([along[:0:-1], along, along[-2::-1]])  # at both ends
+    tops, prominences = maxima(mirrored)
+    tops = tops[prominences >= PROMINENCE * mirrored[tops]] - before
+    return tops[(tops >= 0) & (tops <= before)]
 
 
-def critical(rom: Rom, operating: Mapping[str, Any]) -> dict[str, Any]:
-    """Critical speeds for the margins of operating speeds. Gyroscopic terms are not in the model.
-
-    Parameters
-    ----------
-    operating : ``lines``, speeds by name, rpm; the number of ``modes``, their engine ``orders``,
-        and further ones, at which ``peaks`` are sought, of mode 1 alone
-
-    Returns
-    -------
-    ``operating``, with ``Hz``, frequencies of the modes at each line; ``crossings``; the speeds,
-    rpm, ``through`` which f^2 goes on linearly above the last of them, and ``up_to`` which.
-    """
-    modes, orders = operating["modes"], operating["orders"]
-    pairs = [*product([1], operating["peaks"]), *product(range(1, modes + 1), orders)]
-    crossings = [_crossing(rom, mode, k) for mode, k in pairs]
-    return {
-        **operating,
-        "Hz": {
-            name: (rom.modes(rpm / RPM)[0][:modes] / (2 * np.pi)).tolist()
-            for name, rpm in operating["lines"].items()
-        },
-        "crossings": [speed for speed in crossings if not isnan(speed["rpm"])],
-        "through": (RPM * rom.speeds[-2:]).tolist(),
-        "up_to": BEYOND * RPM * rom.Omega_m,
-    }
+def reported(runs: xr.Dataset, rom: Rom) -> list[Peak]:
+    """Peaks of a sweep that figures and tables name, speeds ascending; none without spectra."""
+    return Responses.of(runs, rom).stand_out() if "spectrum" in runs else []
 
 
-def _crossing(rom: Rom, mode: int, k: int) -> CriticalSpeed:
-    """A crossing, nan rpm without one, and that of the quadratic: they differ above Omega_m."""
-    within, *beyond = (RPM * rom.omega1 * crossing(rom, k, mode, degree) for degree in (0, 1, 2))
-    linear, quadratic = beyond if isnan(within) else (within, within)
-    return {
-        "what": "extrapolated crossing" if isnan(within) else "crossing",
-        "mode": mode,
-        "k": k,
-        "rpm": linear,
-        "quadratic_rpm": quadratic,
-        "bound": False,
-    }
-
-
-def along_order(runs: xr.Dataset, k: int | None = None) -> NDArray[np.float64]:
+def along_order(runs: xr.Dataset, k: float | None = None) -> NDArray[np.float64]:
     """Amplitude (speeds,), over the gap, of u_r at xi = 1/16 along engine order ``k``.
 
     Without ``k`` the largest of all orders. nan where a run has no spectrum.
@@ -172,75 +281,26 @@ def along_order(runs: xr.Dataset, k: int | None = None) -> NDArray[np.float64]:
     return along.astype(float) / leading_gap(runs)
 
 
-def peak_of(runs: xr.Dataset, rom: Rom, k: int) -> Peak | None:
-    """Peak of a sweep along engine order ``k``; None without a result near the crossing."""
-    return peak_among(
-        runs["speed_over_f1"].values,
-        partial(along_order, runs),
-        k,
-        crossing(rom, k),
-        tangential=scene_of(runs).contact.along,
-    )
-
-
-def peak_among(
-    speeds: NDArray[np.float64],
-    along_of: Callable[[int], NDArray[np.float64]],
-    k: int,
-    linear_crossing: float,
-    tangential: bool,
+def peak_of(
+    runs: xr.Dataset, rom: Rom, k: int, harmonics: Iterable[int] | None = None
 ) -> Peak | None:
-    """Peak along engine order ``k``; None without a result near the crossing.
+    """``Responses.near_f1`` of a sweep, whatever lasts."""
+    return Responses.of(runs, rom).near_f1(k, partial(along_order, runs), harmonics)
 
-    Parameters
-    ----------
-    speeds : (speeds,), over f1(0), ascending
-    along_of : amplitudes (speeds,), over the gap, along an engine order; nan without a spectrum
-    linear_crossing : of ``k``, over f1(0)
-    tangential : whether the scene has a tangential force
+
+def rise(speeds: NDArray[np.float64], amplitudes: NDArray[np.float64]) -> float:
+    """Relative rise from the middle of three speeds to the top of the resonance through them.
+
+    Of a linear resonance 1/A^2 is quadratic over the speed near its top: its least value between
+    the outer speeds is the top. Where the response falls from one motion to another there is none:
+    it then rises by no more than on the other side. Inf where one of them is not known.
     """
-    along = along_of(k)
-    lowest = SOFTENED if tangential else STIFFENED
-    near = (speeds >= lowest * linear_crossing) & (speeds <= HIGHEST * linear_crossing)
-    inside = np.flatnonzero(near & np.isfinite(along))
-    if len(inside) == 0:
-        return None
-    best = int(inside[along[inside].argmax()])
-    sidebands = [along_of(sideband)[best] for sideband in sidebands_of(k)]
-    return Peak(
-        k=k,
-        index=best,
-        Omega_c=float(speeds[best]),
-        amplitude=float(along[best]),
-        crossing=linear_crossing,
-        at_end=best in (0, len(speeds) - 1),
-        clear=bool(_is_prominent(along, best) and along[best] >= max(sidebands)),
-    )
-
-
-def sidebands_of(k: int) -> list[int]:
-    """Engine orders that the casing's two nodal diameters couple to order ``k``."""
-    return [k + step for step in SIDEBANDS if k + step > 0]
-
-
-def peaks_of(runs: xr.Dataset, rom: Rom) -> dict[int, Peak]:
-    """Peaks of a sweep by engine order, for those in ``ORDERS`` or of its scene that have one.
-
-    None without spectra.
-    """
-    asked = scene_of(runs).peaks
-    orders = sorted({*ORDERS, *(asked.orders if asked else ())}) if "spectrum" in runs else ()
-    return {k: peak for k in orders if (peak := peak_of(runs, rom, k))}
-
-
-def reported(runs: xr.Dataset, rom: Rom) -> dict[int, Peak]:
-    """Peaks of a sweep that figures and tables name, by engine order."""
-    return {k: peak for k, peak in peaks_of(runs, rom).items() if peak.reported}
-
-
-def _is_prominent(along: NDArray[np.float64], index: int) -> bool:
-    """Whether the amplitude at ``index`` falls by ``PROMINENCE`` of itself on both sides."""
-    from scipy.signal import find_peaks  # a slow import, which many jobs do not need
-
-    prominence = PROMINENCE * along[index]
-    return index in find_peaks(np.nan_to_num(along), prominence=prominence)[0]
+    if not np.isfinite(amplitudes).all():
+        return inf
+    low, _, high = over = np.maximum(amplitudes / amplitudes[1], 1e-3)
+    x = (speeds - speeds[1]) / np.ptp(speeds)
+    a, b, _ = np.polyfit(x, over**-2, 2)
+    top = np.clip(-b / (2 * a), x[0], x[2]) if a > 0 else 0.0
+    least = 1 + b * top + a * top**2
+    found = 1 - max(low, high) if least <= 0 else least**-0.5 - 1
+    return float(max(found, low - 1, high - 1))

@@ -3,6 +3,7 @@
 At the speed of each peak the run is repeated with its contact force, and beside it
 
     a twin      with all gaps changed by 1e-10 (``errors.neighbours``)
+    two runs    halfway to the neighbours in the sweep, of which the amplitude alone is taken
     two models  with all natural frequencies raised and lowered by the largest error that the check
                 of the reduced model found; two more by that of the mesh, where it is known, at the
                 same speed over f1 if the scene gives speeds so
@@ -11,8 +12,8 @@ At the speed of each peak the run is repeated with its contact force, and beside
                 order of their errors to hold
 
 The uncertainty of a number is the root of the squares of these changes; that of the amplitude
-includes the excess of a resonance between two speeds of the sweep. A peak whose numbers jump from
-model to model has two motions (``errors.bistable``).
+includes the rise to the top of the resonance through the three speeds. A peak whose numbers jump
+from model to model has two motions (``errors.bistable``).
 """
 
 from collections.abc import Callable
@@ -25,6 +26,7 @@ import numpy as np
 import xarray as xr
 
 from geometry.project import Say, SettingsError, known, progress, silent
+from geometry.tip import EDGES
 from rom.coarser import coarser
 from rom.model import Rom, RomError
 from simulate.errors.beyond_linear import BEYOND, SHARE, SecondOrder
@@ -35,22 +37,20 @@ from simulate.errors.neighbour import CHAOTIC, ONE_MOTION, TWO_MOTIONS, Neighbou
 from simulate.errors.neighbours import ITSELF, TWIN, raised
 from simulate.errors.observables import Numbers, numbers
 from simulate.errors.run import Case, as_long
-from simulate.errors.signals import gaps_at_ends, leading_wear, lobe_count
+from simulate.errors.signals import gaps_at_ends, leading_gap, leading_wear, lobe_count
 from simulate.marching import SENSITIVE_FROM, WITH_RESULT, prepare
 from simulate.scene import LEADING, OF_LAST_ROUNDS, Scene
 from simulate.sweeps.before import before
 from simulate.sweeps.dataset import checks, course, scene_of, statuses
-from simulate.sweeps.peak import Peak, along_order, crossing, reported
+from simulate.sweeps.peak import Peak, Responses, along_order, reported, rise
 
 OF_MOTION = {name: name for name in ("amplitude", "displacement", "u_t_leading", "u_t_trailing")}
 OF_CONTACT = {  # numbers of a peak by their name in files, and that in ``NUMBERS``
     **{name: name for name in ("wear", "worn_volume", "opening", "force_peak", "torque")},
     "force": "force_mean",
 }
-CROSSED = (4, 5, 6)  # engine orders whose linear crossings are reported: those of the paper
 CLOSE = (-LAST, 0.0, LAST)
 LEAST_PART = 0.2  # of the largest change of a run's numbers: that of one may pass through zero
-MOST_RISE = 1.0  # between two speeds: above, the sweep does not know its peak
 
 
 def results(
@@ -75,7 +75,10 @@ def results(
         begun = process_time()
         if peak.status in WITH_RESULT and not scene.speeds.in_turn:
             case = case_of(runs, scene, rom, peak)
-            peak = _with_errors(peak, replace(case, start=start_at(case.setup.Omega)), model_error)
+            case = replace(case, start=start_at(case.setup.Omega))
+            if peak.k and not peak.at_end:
+                peak = _with_rise(peak, case, runs)
+            peak = _with_errors(peak, case, model_error)
             if second_order is not None:
                 peak = _with_second_order(peak, case, second_order, runs.attrs["gap_m"])
         peak = replace(peak, seconds=process_time() - begun)
@@ -99,7 +102,10 @@ def of_sweep(
         "sweep_s": float(runs["seconds"].sum()),
         "dofs": rom.n,
         "model_error": model_error._asdict(),
-        "crossings": {str(k): speed for k in CROSSED if isfinite(speed := crossing(rom, k))},
+        "swept": runs["speed_over_f1"].values[[0, -1]].tolist(),
+        "seen": Responses.of(runs, rom).seen() if "spectrum" in runs else [],
+        "half_bin": 0.5 / scene_of(runs).record.rounds_of_spectrum,
+        "free": int(runs["free"].sum()) if "free" in runs else 0,
         "no_torque": scene_of(runs).no_torque,
         "mu_crit": float(runs["mu_crit"].min()) if "mu_crit" in runs else None,
         "reasons": sorted({*runs["reason"].values.astype(str)} - {""}) if "reason" in runs else [],
@@ -135,8 +141,7 @@ def _lobes(runs: xr.Dataset, index: int) -> int | None:
 
 def line(peak: Peak) -> str:
     """Where the peak is, and the verdict on it."""
-    name = f"EO {peak.k}" if peak.k else "no peak"
-    return f"{name} at {peak.Omega_c:.4f} f1(0), {peak.verdict or peak.status}"
+    return f"{peak.name or 'no peak'} at {peak.Omega_c:.4f} f1(0), {peak.verdict or peak.status}"
 
 
 def to_march(runs: xr.Dataset) -> Scene:
@@ -154,14 +159,20 @@ def to_march(runs: xr.Dataset) -> Scene:
 
 
 def asked(runs: xr.Dataset, rom: Rom) -> list[Peak]:
-    """The reported peaks; without any where the sweep responds most, else its last run."""
-    peaks = [*reported(runs, rom).values()]
+    """The reported peaks; without any where the sweep responds most, else its last run.
+
+    None where nothing moves the blade: without contact and force it is at rest.
+    """
+    peaks = reported(runs, rom)
     speeds = runs["speed_over_f1"].values
+    if "displacement" in runs and not runs["displacement"].any():
+        return []
     if not peaks:
         with_result = np.flatnonzero(runs["status"].isin(WITH_RESULT))
         last = len(speeds) - 1
         most = with_result[_response(runs)[with_result].argmax()] if len(with_result) else last
-        peaks = [Peak(None, int(most), float(speeds[most]))]
+        place = runs["place"].values[most] if "place" in runs else LEADING
+        peaks = [Peak(None, int(most), float(speeds[most]), place=float(place))]
     return [
         replace(
             peak,
@@ -189,6 +200,25 @@ def _response(runs: xr.Dataset) -> np.ndarray:
     return runs["ledger"].sel(energy="casing").values
 
 
+def _with_rise(peak: Peak, case: Case, runs: xr.Dataset) -> Peak:
+    """The peak with the rise of its amplitude to the top between the speeds, by two runs.
+
+    Halfway to its neighbours in the sweep. A run that goes on from another is there at the speeds
+    of the sweep alone: then the rise is that through the peak and its neighbours.
+    """
+    three = slice(peak.index - 1, peak.index + 2)
+    Omega, of = runs["speed"].values[three].copy(), Responses.of(runs, case.rom)
+    along = of.series(known(peak.k, "k"), peak.place)[three].copy()
+    if case.start is None:
+        Omega[::2] = (Omega[::2] + Omega[1]) / 2
+        for side in (0, 2):
+            setup = prepare(case.scene, case.rom, Omega[side], case.steps_of_a_turn)
+            values = at_peak(replace(case, setup=setup), peak)
+            along[side] = values.get("amplitude", nan) / leading_gap(runs)
+    parts = {"speeds": {"amplitude": rise(Omega, along)}}
+    return replace(peak, parts=parts, runs=0 if case.start else 2)
+
+
 def _with_errors(peak: Peak, case: Case, model_error: ModelError) -> Peak:
     """The peak with its numbers, their errors, and the verdict on it."""
     runs = []
@@ -196,10 +226,10 @@ def _with_errors(peak: Peak, case: Case, model_error: ModelError) -> Peak:
     def numbers_of(other: Neighbour) -> Numbers:
         """Numbers of a second run, which is counted."""
         runs.append(other)
-        return at_peak(case.neighbour(other), peak.k)
+        return at_peak(case.neighbour(other), peak)
 
     first = numbers_of(ITSELF)
-    parts, sides = {"twin": change(first, numbers_of(TWIN))}, None
+    parts, sides = peak.parts | {"twin": change(first, numbers_of(TWIN))}, None
     along = case.scene.speeds.over_f1 is not None
     for name, error, moves in (
         ("model", model_error.basis, False),
@@ -218,8 +248,8 @@ def _with_errors(peak: Peak, case: Case, model_error: ModelError) -> Peak:
         changes = change(first, numbers_of(other))
         least = LEAST_PART * largest(changes)
         parts[name] = {number: max(size, least) / times for number, size in changes.items()}
-    if peak.k and peak.spacing:
-        parts["speeds"] = {"amplitude": between_speeds(peak, case.scene.damping_ratio)}
+    if peak.k and peak.at_end:
+        parts["speeds"] = {"amplitude": inf}
     chaotic = largest(parts["twin"]) > SENSITIVE_FROM
     return replace(
         peak,
@@ -232,20 +262,28 @@ def _with_errors(peak: Peak, case: Case, model_error: ModelError) -> Peak:
         # of the run that differs most from the first
         other=max(sides, key=lambda side: largest(change(first, side))) if sides else {},
         parts=parts,
-        runs=len(runs),
+        runs=peak.runs + len(runs),
     )
 
 
 def _with_second_order(peak: Peak, case: Case, known: SecondOrder, gap: float) -> Peak:
-    """The peak with the change of the tip's radius of second order over the ``gap``, m."""
-    motion, setup = peak.numbers.get("displacement", nan), case.setup
-    place = peak.course.get("place", LEADING)
+    """The peak with the change of the tip's radius of second order over the ``gap``, m.
+
+    Of the mode that responds, with the largest displacement where that is mode 1, which most of it
+    is; of a higher mode with the amplitude along its order.
+    """
+    of_higher = peak.modes and 1 not in peak.modes
+    name, setup = "amplitude" if of_higher else "displacement", case.setup
+    motion = peak.numbers.get(name, nan)
+    place = peak.place if of_higher else peak.course.get("place", LEADING)
+    if place not in EDGES:
+        return peak
     of_peak = setup.Omega, peak.k, place, motion
     second, axial = known.at_peak(case.rom, case.scene.casing, *of_peak)
     if not isfinite(second):
         return peak
     half = setup.places.width.mean() / 2
-    error = 2 * second * peak.errors["displacement"] / motion / gap
+    error = 2 * second * peak.errors[name] / motion / gap
     return replace(
         peak,
         beyond=BEYOND if second > SHARE * motion or axial > half else "",
@@ -261,12 +299,15 @@ def case_of(runs: xr.Dataset, scene: Scene, rom: Rom, peak: Peak) -> Case:
     return Case(as_long(scene, rounds), rom, prepare(scene, rom, Omega, int(steps)))
 
 
-def at_peak(case: Case, k: int | None) -> Numbers:
-    """Numbers of a run along ``k``, those of contact where there is any; none without result."""
+def at_peak(case: Case, peak: Peak) -> Numbers:
+    """Numbers of a run along the order of a peak, at its place; none without result.
+
+    Those of contact where there is any.
+    """
     run = case.march()
     if run.outcome.status not in WITH_RESULT:
         return {}
-    values = numbers(run, k)
+    values = numbers(run, peak.k, peak.place if peak.k else None)
     names = OF_MOTION | (OF_CONTACT if case.scene.liner.law.touches else {})
     return {name: values[key] for name, key in names.items() if key in values}
 
@@ -290,17 +331,6 @@ def _of_other_fineness(case: Case) -> dict[str, tuple[Neighbour, float]]:
         "patches": (Neighbour("fewer patches and modes", rom=lambda _: coarse), TIMES),
         "finer": (Neighbour("finer", scene=lambda _: finer), FINER_TIMES),
     }
-
-
-def between_speeds(peak: Peak, zeta: float) -> float:
-    """Relative rise of a resonance of damping ratio ``zeta`` from a speed of the sweep to its top.
-
-    Half its spacing away: sqrt(1 + x^2) - 1 with x that distance over zeta Omega_c, as of a linear
-    oscillator near its resonance. Inf, not known, where it may be over twice as high.
-    """
-    width = zeta * peak.Omega_c
-    rise = hypot(1.0, known(peak.spacing, "spacing") / 2 / width) - 1 if width else inf
-    return rise if rise <= MOST_RISE else inf
 
 
 def _sides(

@@ -1,6 +1,32 @@
 """Types of values in files of results. Light: Snakemake imports the summary, which has them."""
 
+from collections.abc import Sequence
 from typing import TypedDict
+
+NO_CROSSING = "no linear crossing explains it"
+
+
+def order_name(k: float | None) -> str:
+    """Engine order ``k``, or f / Omega of a line on no integer order; empty without one.
+
+    >>> order_name(4), order_name(3.4)
+    ('EO 4', 'f/Ω 3.4')
+    """
+    return "" if k is None else f"EO {k:g}" if k % 1 == 0 else f"f/Ω {k:.3g}"
+
+
+def numbers_of(modes: Sequence[int]) -> str:
+    """One mode, or those of which it may be; empty where none is known.
+
+    >>> numbers_of([1]), numbers_of([2, 3])
+    ('1', '2 or 3')
+    """
+    return " or ".join(map(str, modes))
+
+
+def mode_name(modes: Sequence[int]) -> str:
+    """The same with the word; empty where none is known."""
+    return f"mode {numbers_of(modes)}" if modes else ""
 
 
 class Course(TypedDict, total=False):
@@ -17,8 +43,8 @@ class CriticalSpeed(TypedDict):
     """Crossing of a mode with an engine order, or a rub peak along one."""
 
     what: str  # in words
-    mode: int | None  # None of a rub peak
-    k: int  # engine order
+    modes: Sequence[int]  # of a rub peak those of which it may be; none: no crossing explains it
+    k: float  # engine order, or f / Omega
     rpm: float
     quadratic_rpm: float | None  # where f^2 goes on as a quadratic; None of a rub peak
     bound: bool  # whether it is at an end of a sweep, and may lie beyond

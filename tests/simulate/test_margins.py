@@ -7,24 +7,24 @@ import pytest
 from made_sweeps import F1, STIFFENING, made_rom
 
 from rom.speeds import basis_speeds
-from simulate.sweeps.peak import critical, crossing
+from simulate.sweeps.crossings import critical, crossing
 
 TOP = 0.4  # of the made model, over f1(0)
 
 
-def crossings_of(rom, modes=3, orders=(3, 4, 8, 9, 10), peaks=(5,), lines=None):
+def crossings_of(rom, modes=3, orders=(3, 4, 5, 8, 9, 10), lines=(("idle", 600.0),)):
     """What is found, and its crossings by mode and order."""
-    given = {"modes": modes, "orders": orders, "peaks": peaks, "lines": lines or {}}
+    given = {"modes": modes, "orders": orders, "lines": dict(lines), "excited": {}}
     found = critical(rom, given)
-    return found, {(of["mode"], of["k"]): of for of in found["crossings"]}
+    return found, {(of["modes"][0], of["k"]): of for of in found["crossings"]}
 
 
 def test_crossings_are_those_of_closed_form_also_above_the_top_speed():
     """f^2 = f0^2 + B Omega^2 meets k Omega at f0 / sqrt(k^2 - B): extrapolated without an error."""
     expected = {
         (mode, k): at
-        for mode, f0, orders in ((1, 1, (3, 4, 5, 8, 9, 10)), (2, 4, (8, 9, 10)), (3, 4, (9, 10)))
-        for k in orders
+        for mode, f0 in ((1, 1), (2, 4), (3, 4))
+        for k in (3, 4, 5, 8, 9, 10)
         if (at := f0 / np.sqrt(k**2 - STIFFENING)) <= 1.25 * TOP
     }
     found, crossings = crossings_of(made_rom())
@@ -36,6 +36,9 @@ def test_crossings_are_those_of_closed_form_also_above_the_top_speed():
         assert crossings[of]["what"].startswith("extrapolated") == (at > TOP)
     top = 60 * F1 * TOP
     assert [*found["through"], found["up_to"]] == pytest.approx([top / 2, top, 1.25 * top])
+    within, _ = crossings_of(made_rom(), lines=())  # without operating speeds nothing beyond
+    assert (within["through"], within["up_to"]) == ([], pytest.approx(top))
+    assert {of["what"] for of in within["crossings"]} == {"crossing"}
 
 
 @pytest.mark.parametrize(("bend", "known"), [(-8.0, True), (8.0, True), (150.0, False)])

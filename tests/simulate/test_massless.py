@@ -20,6 +20,7 @@ from runs import set_up
 from scenes import of_steps, over_strips, scene
 from systems import Hooke, elastic_rod, lively, march_by, one_rod, strips
 
+from geometry.tip import JUDGED
 from simulate.contact.rod_law import rod_law
 from simulate.marching.kernel import ESCAPED, RUNNING
 from simulate.scene.law import numbers_of
@@ -198,7 +199,7 @@ def test_the_reduction_of_craig_and_bampton_nears_it_too(coarse_rom):
     """It drops the mass of the interface, which MacNeal's shares among the free modes."""
     case = rubbing(32768, **PLASTIC)
     setup = set_up(case, coarse_rom)
-    places = np.array([1 / 16, *case.record.history.chord])
+    places = np.array([*JUDGED, *case.record.history.chord])
     found = left(case, setup, [craig_bampton(setup, coarse_rom, places, r) for r in (6, 16, 30)])
     assert found[0] > found[1] > found[2], found
     assert found[2] < 1e-2, found
@@ -208,7 +209,7 @@ def test_both_reductions_keep_the_static_compliance(coarse_rom):
     """That of the interface, and from it to the outputs, whatever the number of modes."""
     case = rubbing(640, **PLASTIC)
     setup = set_up(case, coarse_rom)
-    places = np.array([1 / 16, *case.record.history.chord])
+    places = np.array([*JUDGED, *case.record.history.chord])
     flexibility = np.linalg.inv(coarse_rom.stiffness(setup.Omega))
     P, P_out = coarse_rom.rows(setup.places.xi), coarse_rom.rows(places)
     for of in (macneal(setup, 9), craig_bampton(setup, coarse_rom, places, 9)):

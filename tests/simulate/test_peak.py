@@ -6,7 +6,8 @@ import xarray as xr
 from scenes import scene
 
 from simulate import Runs
-from simulate.sweeps.peak import crossing, crossing_of, peak_of, peaks_of
+from simulate.sweeps.crossings import crossing, crossings_of
+from simulate.sweeps.peak import peak_of, reported
 
 
 def test_f1_is_k_times_the_speed_at_the_crossing(coarse_rom):
@@ -36,29 +37,30 @@ def responding(rom, contact=None, **along):
     )
 
 
-def reported(rom, speeds=slice(None), **along):
+def orders_told(rom, speeds=slice(None), **along):
     """Orders whose peaks are reported, of the sweep or of some of its speeds."""
     runs = responding(rom, **along).isel(speed_over_f1=speeds)
-    return [peak.k for peak in peaks_of(runs, rom).values() if peak.reported]
+    return sorted(peak.k for peak in reported(runs, rom))
 
 
 BELOW = SPEEDS <= 0.3395  # the sweep ends where the response is high
 REPORTED = [  # peaks, and the orders that are reported
     ({"k4": (0.34, 2.0), "k6": (0.19, 0.5)}, [4, 6]),
     ({"k4": (0.34, 0.09), "k6": (0.19, 0.5)}, [6]),  # low
-    ({"k4": (0.34, 2.0), "k6": (0.34, 3.0)}, []),  # a sideband of order 6
-    ({"k4": (0.2, 2.0)}, []),  # far from the crossing
+    ({"k4": (0.34, 2.0), "k6": (0.34, 3.0)}, [6]),  # a side band of order 6, which is the largest
+    ({"k4": (0.2, 2.0)}, [4]),  # far from all crossings, and the largest
+    ({"k4": (0.2, 2.0), "k9": (0.2, 3.0)}, [9]),
     ({"k4": (0.34, 2.0), "speeds": BELOW}, [4]),
     ({"k4": (0.34, 0.9), "speeds": BELOW}, []),
 ]
 
 
 def test_the_crossing_of_a_stiffening_mode_is_that_of_theory():
-    """f1^2 = 1 + B Omega^2 meets k Omega at 1 / sqrt(k^2 - B)."""
-    assert crossing_of(lambda speed: np.sqrt(1 + 5.6 * speed**2), 4, 0.0, 0.4) == pytest.approx(
-        1 / np.sqrt(16 - 5.6), abs=1e-8
+    """f1^2 = 1 + B Omega^2 meets k Omega at 1 / sqrt(k^2 - B); B > k^2: never."""
+    ((mode, k, speed),) = crossings_of(
+        lambda speed: np.sqrt([1 + 5.6 * speed**2]), [1, 2, 4], 0.0, 0.4
     )
-    assert np.isnan(crossing_of(lambda speed: np.sqrt(1 + 5.6 * speed**2), 1, 0.0, 0.4))
+    assert (mode, k, speed) == (1, 4, pytest.approx(1 / np.sqrt(16 - 5.6), abs=1e-8))
 
 
 def test_a_peak_along_an_order_has_its_speed_and_height(coarse_rom):
@@ -72,21 +74,20 @@ def test_a_peak_along_an_order_has_its_speed_and_height(coarse_rom):
 
 
 @pytest.mark.parametrize(("peaks", "orders"), REPORTED)
-def test_peaks_that_are_low_coupled_or_far_from_the_crossing_are_not_reported(
-    coarse_rom, peaks, orders
-):
-    assert reported(coarse_rom, **peaks) == orders
+def test_peaks_that_are_low_or_coupled_are_not_reported(coarse_rom, peaks, orders):
+    assert orders_told(coarse_rom, **peaks) == orders
 
 
-def test_a_peak_is_reported_of_any_order_that_the_scene_asks_for(coarse_rom):
-    """As of EO 2 on rotor 67; here the crossing of EO 15 is at 0.067."""
-    runs = responding(coarse_rom, k15=(0.14, 2.0)).assign_coords(speed_over_f1=SPEEDS / 2)
+def test_a_peak_is_reported_of_any_order_that_scene_or_blade_asks_for(coarse_rom):
+    """The crossing of EO 17 with f1 is below these speeds, and EO 17 is beyond the usual orders."""
+    runs = responding(coarse_rom, k17=(0.14, 2.0)).assign_coords(speed_over_f1=SPEEDS / 2)
     asking = scene(
-        rounds=10, record__spectrum_rounds=10, peaks={"orders": [15], "within_over_f1": 1e-3}
+        rounds=10, record__spectrum_rounds=10, peaks={"orders": [17], "within_over_f1": 1e-3}
     )
-    assert 15 not in peaks_of(runs, coarse_rom)
-    peak = peaks_of(runs.assign_attrs(scene=asking.model_dump_json()), coarse_rom)[15]
-    assert peak.reported and peak.Omega_c == pytest.approx(0.07)
+    assert reported(runs, coarse_rom) == []
+    for attrs in ({"scene": asking.model_dump_json()}, {"orders": [17]}, {"orders": 17}):
+        (peak,) = reported(runs.assign_attrs(attrs), coarse_rom)
+        assert peak.k == 17 and peak.Omega_c == pytest.approx(0.07)
 
 
 def test_only_a_tangential_force_may_bring_a_peak_below_the_crossing(coarse_rom):
@@ -117,6 +118,7 @@ def test_runs_are_printed_in_a_few_lines(coarse_rom):
     assert heading == (f"Runs of blade coarse: 301 speeds, {0.1 * rpm:.0f} to {0.4 * rpm:.0f} rpm")
     assert ends == "diverged: 10, ok: 291"
     assert checks == "checked at 0 of 301 speeds"
-    four, six = peaks
-    assert four.startswith(f"EO 4: peak at {0.34 * rpm:.0f} rpm, ") and four.endswith(" 2 gaps")
-    assert six.startswith("EO 6: ")
+    six, four = peaks  # speeds ascending
+    assert four.startswith(f"EO 4 mode 1: peak at {0.34 * rpm:.0f} rpm, ")
+    assert four.endswith(" times the linear crossing, 2 gaps")
+    assert six.startswith("EO 6 mode 1: ")

@@ -178,10 +178,10 @@ PEAKS = {"orders": [4, 31], "within_over_f1": 0.01}
 
 
 def test_peaks_beyond_the_spectrum_are_refused_by_the_scene():
-    """64 samples hold 32 engine orders; a peak is compared with two orders beside it."""
-    assert scene(peaks=PEAKS | {"orders": [4, 30]}).peaks.orders == [4, 30]
-    error = refused(SettingsError, scene, peaks=PEAKS)
-    assert error.faults[0][1:4] == ("peaks.orders", 31, {"le": 30})
+    """64 samples hold less than 32 engine orders."""
+    assert scene(peaks=PEAKS | {"orders": [4, 31]}).peaks.orders == [4, 31]
+    error = refused(SettingsError, scene, peaks=PEAKS | {"orders": [32]})
+    assert error.faults[0][1:4] == ("peaks.orders", 32, {"le": 31})
 
 
 TOP = {"rad_s": 650.0, "rpm": pytest.approx(650 * 30 / np.pi), "over_f1": None}

@@ -20,8 +20,9 @@ from simulate.marching import WITH_RESULT, march, prepare
 from simulate.marching.trend import FEWEST, Rounds, looks, time_constant, trend
 from simulate.scene import DYING_OUT, GROWING, STEADY, TOO_SHORT, TRENDS, Scene
 from simulate.sweeps.closing_in import sweep
+from simulate.sweeps.crossings import crossing
 from simulate.sweeps.dataset import course, of_run
-from simulate.sweeps.peak import Peak, crossing
+from simulate.sweeps.peak import Peak
 from simulate.sweeps.peak_results import case_of, to_march
 
 J = np.arange(400.0)

@@ -17,7 +17,7 @@ from geometry.project import ROOT
 from rom.model import Rom
 from rom.reduce import reduce
 from simulate import Scene, march, sweep
-from simulate.sweeps.peak import crossing
+from simulate.sweeps.crossings import crossing
 from workflow.jobs.full_model import assembled
 
 SCENE = ROOT / "workflow/scenes/rotor67.yaml"

@@ -8,6 +8,7 @@ from projects import ROOT
 from simulate.errors.neighbours import GAP_CHANGE
 from simulate.errors.signals import LOBE_PROMINENCE
 from simulate.marching import SENSITIVE_FROM
+from simulate.scene.casing import COUNTS
 from simulate.sweeps import peak as peaks
 from workflow.figures import table
 
@@ -17,10 +18,6 @@ CAPTIONS = {
     "spectra-{scene}": (
         f"reaches {peaks.LEAST:g} of the gap",
         f"by {peaks.PROMINENCE:g} of its height",
-        f"k - {-peaks.SIDEBANDS[0]} or k + {peaks.SIDEBANDS[1]}",
-        f"Engine orders {peaks.ORDERS[0]} to {peaks.ORDERS[-1]} are searched",
-        f"from {peaks.STIFFENED:g} (with tangential force {peaks.SOFTENED:g}) to "
-        f"{peaks.HIGHEST:g} times the crossing",
         f"at {peaks.LEAST_AT_END:g} gap or more",
         *TWIN,
     ),
@@ -28,6 +25,18 @@ CAPTIONS = {
     "fig12": TWIN,
     "stress-{scene}": TWIN,
 }
+
+
+PAGE = (  # of simulate/README.md
+    f"{100 * COUNTS:g} % of its largest",
+    f"from {peaks.STIFFENED:g} (with a tangential force {peaks.SOFTENED:g}) to {peaks.HIGHEST:g}",
+    f"both cross within {100 * peaks.NEAR:g} %",
+)
+
+
+def test_the_page_has_the_thresholds_of_the_code():
+    page = " ".join((ROOT / "simulate/README.md").read_text().split())
+    assert [words for words in PAGE if words not in page] == []
 
 
 @pytest.mark.parametrize(("name", "said"), CAPTIONS.items())

@@ -556,7 +556,7 @@ NUMBERS = {  # by figure and what is shown: the numbers that are drawn, and what
     ),
     ("fig03", "crossings of f1"): (
         lambda drawn: points(drawn.axes[0], "s"),
-        [[1, k] / np.sqrt(k**2 - STIFFENING) for k in (4, 5, 6, 8)],
+        [[1, k] / np.sqrt(k**2 - STIFFENING) for k in (4, 5, 6, 7)],
     ),
     ("fig03", "frequencies of the full model"): (
         lambda drawn: points(drawn.axes[1], "o")[:, 1],
@@ -601,7 +601,7 @@ NUMBERS = {  # by figure and what is shown: the numbers that are drawn, and what
     ),
     ("fig10", "peaks on the map"): (
         lambda drawn: points(drawn.axes[0], "o"),
-        [[PEAK_4, 4 * PEAK_4], [PEAK_6, 6 * PEAK_6]],
+        [[PEAK_6, 6 * PEAK_6], [PEAK_4, 4 * PEAK_4]],
     ),
     ("fig10", "cell of an engine order"): (
         lambda drawn: cell_of_order_4(drawn.axes[0]),
@@ -613,7 +613,7 @@ NUMBERS = {  # by figure and what is shown: the numbers that are drawn, and what
     ),
     ("fig10", "amplitudes of the peaks"): (
         lambda drawn: points(drawn.axes[1], ".")[:, 1],
-        [3.02, 2.02],
+        [2.02, 3.02],
     ),
     ("fig10", "µm of the amplitudes"): (
         lambda drawn: scale_beside(drawn.axes[1], "µm"),
@@ -633,7 +633,7 @@ NUMBERS = {  # by figure and what is shown: the numbers that are drawn, and what
     ),
     ("spectra in rpm", "amplitudes of the peaks in µm"): (
         lambda drawn: points(drawn.axes[1], ".")[:, 1],
-        [1e6 * GAP * 3.02, 1e6 * GAP * 2.02],
+        [1e6 * GAP * 2.02, 1e6 * GAP * 3.02],
     ),
     ("spectra in rpm", "cell of an engine order in µm"): (
         lambda drawn: cell_of_order_4(drawn.axes[0]),
@@ -662,7 +662,7 @@ NUMBERS = {  # by figure and what is shown: the numbers that are drawn, and what
     ),
     ("fig11", "crossings above the wear map"): (
         lambda drawn: points(drawn.axes[0], "v")[:, 0],
-        [CROSSING_4, 1 / np.sqrt(36 - STIFFENING), PEAK_4, PEAK_6],
+        [1 / np.sqrt(36 - STIFFENING), CROSSING_4, PEAK_6, PEAK_4],
     ),
     ("fig11", "deepest wear"): (
         lambda drawn: at_speeds(drawn.axes[1].lines[0], PEAK_4, SPEEDS[FAILED]),
@@ -840,8 +840,8 @@ def test_a_run_without_a_valid_result_is_labelled(densities, tmp_path, status):
 def test_a_sweep_in_the_figures_units(seen):
     np.testing.assert_allclose(seen.spectrum[0, 20], 0.5)
     np.testing.assert_allclose(seen.wear[SPEEDS == PEAK_4][0], 3 * worn(4), atol=1e-12)
-    assert [(p.k, p.Omega_c) for p in seen.peaks] == [(4, PEAK_4), (6, PEAK_6)]
-    assert seen.by_order[4].crossing == pytest.approx(CROSSING_4, abs=1e-8)
+    assert [(p.k, p.Omega_c) for p in seen.peaks] == [(6, PEAK_6), (4, PEAK_4)]
+    assert seen.of_f1(4).crossing == pytest.approx(CROSSING_4, abs=1e-8)
 
 
 def test_runs_that_missed_their_accuracy_are_sensitive(sweep, rom):
@@ -871,7 +871,7 @@ def test_figure_summary_and_claim_name_the_same_peaks(sweep, rom, seen, of_user)
         assert lengths.scale * peak.amplitude == pytest.approx(row["um"], rel=1e-12)
     assert seen.units == {name: pair[::-1] for name, pair in of_user.units.items()}
     assert [(peak.k, peak.Omega_c, peak.amplitude) for peak in told] == marked
-    assert [peak.lobes for peak in told] == [4, 6]
+    assert [peak.lobes for peak in told] == [6, 4]
     away = [(end["over_f1"], end["lobes"], end["status"]) for end in ends(sweep)]
     assert away == [(0.02, 2, "ok"), (0.4, 2, "ok")]
     claimed = [(k, judged[str(k)]["Omega_c"], judged[str(k)]["amplitude"]) for k, *_ in marked]
@@ -879,7 +879,7 @@ def test_figure_summary_and_claim_name_the_same_peaks(sweep, rom, seen, of_user)
 
 
 def test_an_operating_line_is_at_its_speed(seen, rom, check):
-    of = {"lines": {"design": 20 * rom.f1}, "modes": 2, "orders": [4], "peaks": []}
+    of = {"lines": {"design": 20 * rom.f1}, "modes": 2, "orders": [4], "excited": {}}
     campbell = fig03_campbell.draw(rom, check, operating=of)
     for axes in (*campbell.axes[:2], spectra.over_speeds(seen, operating=of).axes[1]):
         assert any(line.get_xdata() == pytest.approx([1 / 3, 1 / 3]) for line in axes.lines)
@@ -945,8 +945,8 @@ def test_a_profile_that_cannot_be_predicted_is_labelled(sweep, rom, twinned):
 
 def test_a_sweep_that_ends_on_the_rise_gives_a_bound(sweep, rom):
     kept = sweep.isel(speed_over_f1=SPEEDS <= 0.33).assign(spectrum=10 * sweep["spectrum"])
-    text = spectra.over_speeds(Response(kept, rom)).axes[1].texts[0]
-    assert r"$\geq$ 0.330" in text.get_text()
+    texts = [text.get_text() for text in spectra.over_speeds(Response(kept, rom)).axes[1].texts]
+    assert any(text.startswith(r"EO 4:  $\geq$ 0.330") for text in texts)
 
 
 def test_a_scene_without_spectrum_gets_a_wear_map_without_peaks(sweep, rom):

@@ -14,7 +14,7 @@ from test_summary import ANSWER, OF
 from geometry.project import write_json
 from rom.check import RomCheck
 from simulate.scene import GROWING
-from simulate.sweeps.peak import critical
+from simulate.sweeps.crossings import critical
 from workflow import margins, summary
 from workflow.figures import fig03_campbell
 
@@ -22,7 +22,7 @@ RPM = 60 * F1  # of a speed over f1(0)
 CROSSING = 1 / np.sqrt(16 - STIFFENING)  # of k = 4 with mode 1
 DESIGN, TOP, IDLE = CROSSING / 1.12, 0.29, 0.2  # over f1(0): the crossing is beyond the top
 LINES = {"design": DESIGN * RPM, "idle": IDLE * RPM}
-OPERATING = {"lines": LINES, "modes": 3, "orders": [1, 2, 3, 4, 5, 6], "peaks": [7, 8]}
+OPERATING = {"lines": LINES, "modes": 3, "orders": [*range(1, 9)], "excited": {4: "casing"}}
 PEAK = ANSWER | {"k": 5, "Omega_c": 0.25, "spacing": 0.01, "crossing": 0.227}
 MINE = OF | {"f1_Hz": F1, "blade": "reference", "peaks": [PEAK]}
 NEXT = re.compile(
@@ -50,11 +50,11 @@ def told(rom, tmp_path):
     return told
 
 
-def row_of(found, line, what, k, mode=None):
+def row_of(found, line, what, k, mode=1):
     (row,) = (
         row
         for row in found["scenes"][0]["margins"]
-        if (row["line"], row["what"], row["k"], row["mode"]) == (line, what, k, mode)
+        if (row["line"], row["what"], row["k"], row["modes"]) == (line, what, k, [mode])
     )
     return row
 
@@ -62,13 +62,13 @@ def row_of(found, line, what, k, mode=None):
 def test_margins_by_hand(told):
     """Of speed: critical over operating speed less 1; of frequency: (f - k Omega) / (k Omega)."""
     found = told()
-    row = row_of(found, "design", "extrapolated crossing", 4, mode=1)
+    row = row_of(found, "design", "extrapolated crossing", 4)
     f1 = np.sqrt(1 + STIFFENING * DESIGN**2)
     assert row["rpm"] == pytest.approx(CROSSING * RPM, rel=1e-8)
     assert row["speed_margin"] == pytest.approx(0.12, rel=1e-7)
     assert row["frequency_margin"] == pytest.approx(f1 / (4 * DESIGN) - 1, rel=1e-9)
     assert row["rpm_error"] == pytest.approx(1e-3 * row["rpm"], rel=1e-4)  # basis and mesh
-    below = row_of(found, "design", "crossing", 5, mode=1)
+    below = row_of(found, "design", "crossing", 5)
     at = 1 / np.sqrt(25 - STIFFENING)
     assert below["speed_margin"] == pytest.approx(at / DESIGN - 1, rel=1e-7)
     assert below["frequency_margin"] == pytest.approx(f1 / (5 * DESIGN) - 1, rel=1e-9)
@@ -81,7 +81,7 @@ def test_margins_by_hand(told):
 def test_a_rub_peak_that_grows_says_so(told):
     found = told(peaks=[PEAK | {"course": ANSWER["course"] | {"trend": GROWING}}])
     assert row_of(found, "design", "rub peak (growing)", 5)["rpm"] == pytest.approx(0.25 * RPM)
-    assert f"rub peak ({GROWING}) of EO 5" in summary.terminal(found)
+    assert f"rub peak ({GROWING}) of EO 5 with mode 1" in summary.terminal(found)
 
 
 def test_nearest_first_and_what_is_far_is_in_the_csv_file_alone(told):
@@ -91,7 +91,7 @@ def test_nearest_first_and_what_is_far_is_in_the_csv_file_alone(told):
         assert rows == sorted(rows)
     near = margins.table(found["scenes"][0]["margins"])
     assert [row[:4] for row in near if row[0].startswith("design")] == [
-        [f"design {DESIGN * RPM:.0f}", "rub peak", "-", "5"],
+        [f"design {DESIGN * RPM:.0f}", "rub peak", "1", "5"],
         [f"design {DESIGN * RPM:.0f}", "extrapolated crossing", "1", "4"],
         [f"design {DESIGN * RPM:.0f}", "crossing", "1", "5"],
     ]
@@ -105,7 +105,7 @@ def of_csv(found):
 def test_a_crossing_beyond_the_top_speed_is_told_alike_everywhere(told, rom):
     """12 % above the design speed, of k = 4: in summary, terminal, CSV, page and Campbell."""
     found = told(peaks=[])
-    line = rf"Design speed {DESIGN * RPM:.0f} rpm, next (crossing|critical speed) above: "
+    line = rf"Design speed {DESIGN * RPM:.0f} rpm, next crossing above: "
     line += rf"{CROSSING * RPM:.0f}( ±[\d.]+)? rpm, "
     line += r"extrapolated crossing of EO 4 with mode 1: speed \+12.0 %, frequency \+8.0 %"
     page = summary.panel(MINE | {"peaks": []}, critical(rom, OPERATING), {})
@@ -116,7 +116,7 @@ def test_a_crossing_beyond_the_top_speed_is_told_alike_everywhere(told, rom):
         assert NEXT.findall(text) == NEXT.findall(texts[0]) and len(NEXT.findall(text)) == 4
     for text in texts[:3]:
         assert "Gyroscopic terms are not in the model" in text
-        assert "from 1200 to 2400 rpm" in text and "up to 2175 rpm" in text  # swept, extrapolated
+        assert "modes 1 to 3 with EO 1 to 8 up to 2175 rpm" in text  # extrapolated
     (row,) = (row for row in of_csv(found) if row["k"] == "4" and row["line"] == "design")
     assert float(row["speed_margin"]) == pytest.approx(0.12)
 
@@ -132,7 +132,7 @@ def test_tables_of_summary_page_and_file_and_marks_of_the_campbell_diagram_are_t
     assert of_file == pytest.approx([row["rpm"] for row in rows], rel=1e-5)
     first, every, *_ = diagram(rom).axes
     marked = [x * RPM for axes in (first, every) for x in squares(axes)]
-    near = {row["rpm"] for row in margins.near(rows) if row["mode"]}
+    near = {row["rpm"] for row in margins.near(rows) if row["quadratic_rpm"]}
     assert sorted(marked) == pytest.approx(sorted(near))
     texts = {text.get_text() for axes in (first, every) for text in axes.texts}
     assert {f"{rpm:.0f}" for rpm in near} <= texts
@@ -169,15 +169,16 @@ def test_where_nothing_is_near_the_next_are_told(told):
     assert margins.table(found["scenes"][0]["margins"]) == []
     text = summary.terminal(found)
     assert re.search(
-        r"Design speed 600 rpm, next critical speed above: 785 ±0.79 rpm, crossing of EO 8", text
+        r"Design speed 600 rpm, next crossing above: 785 ±0.79 rpm, crossing of EO 8", text
     )
-    assert "Design speed 600 rpm, next critical speed below: none." in text
+    none = "none of modes 1 to 3 with EO 1 to 8 from 0 to 600 rpm."
+    assert f"Design speed 600 rpm, next crossing below: {none}" in text
 
 
-def test_a_blade_without_operating_speeds_has_no_margins(told):
-    found = summary.panel(MINE, {}, {})
+def test_a_blade_without_operating_speeds_has_no_margins(rom):
+    found = summary.panel(MINE, critical(rom, OPERATING | {"lines": {}}), {})
     assert found["tables"][-1]["rows"] == []
-    assert not any("Margins" in note or "next" in note for note in found["notes"])
+    assert not any("next" in note for note in found["notes"])
 
 
 def test_an_unknown_difference_is_no_small_one():

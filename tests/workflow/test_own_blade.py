@@ -156,7 +156,7 @@ def test_a_new_scene_is_one_of_its_blade(project):
     new.new("blade", "mine")
     path = new.new("scene", "rub", "mine")
     scene = Scene.load(path)
-    assert (scene.blade, scene.speeds.count) == ("mine", 12)
+    assert (scene.blade, scene.speeds.count) == ("mine", 80)
     highest = Blade.load("workflow/blades/mine.yaml").top_speed
     assert scene.speeds.omega(1.0).max() < highest
 

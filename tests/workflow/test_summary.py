@@ -5,12 +5,15 @@ from io import StringIO
 from types import SimpleNamespace
 
 import pytest
+from made_sweeps import made_rom
 
 from geometry.project import write_json
 from geometry.tip import EDGES
 from simulate.errors.beyond_linear import BEYOND
 from simulate.errors.neighbour import ONE_MOTION, TWO_MOTIONS
 from simulate.scene import DYING_OUT, GROWING, TRENDS
+from simulate.sweeps.crossings import critical
+from simulate.sweeps.plain import NO_CROSSING
 from workflow import summary
 
 NUMBERS = {
@@ -23,6 +26,7 @@ NUMBERS = {
 NUMBERS |= {"force": 170.0, "force_peak": 580.0, "torque": 0.05}
 ANSWER = {
     "k": 4,
+    "modes": [1],
     "index": 100,
     "Omega_c": 0.35,
     "spacing": 4e-4,
@@ -49,7 +53,10 @@ OF = {
     "sweep_s": 30.0,
     "checks": "checked at 4 of 41 speeds; largest error 0.021",
     "dofs": 76,
-    "crossings": {"4": 0.31},
+    "swept": [0.2, 0.4],
+    "seen": [2, 4],
+    "free": 0,
+    "half_bin": 0.05,
     "reasons": [],
     "ends": [
         {"over_f1": 0.2, "status": "ok", "lobes": 2, "gaps_m": []},
@@ -60,6 +67,7 @@ OF = {
     "mu_crit": None,
     "peaks": [ANSWER],
 }
+OPERATING = {"lines": {}, "modes": 1, "orders": [4, 5], "excited": {4: "side band"}}
 WORST = {"mean_stress": 3e8, "alternating": 2e7, "margin": 17.0, "at": [400.0, 10.0, -20.0]}
 WORST |= {"unit": "mm"}
 STRESS = {
@@ -93,7 +101,9 @@ def summed(tmp_path):
         files = {name: [tmp_path / f"{name}.json"] for name, values in given.items() if values}
         for name, (file,) in files.items():
             write_json(given[name], file)
-        return summary.numbers(SimpleNamespace(**files, roms=[""]), {})
+        made_rom().save(tmp_path / "rom.nc")
+        roms = [tmp_path / "rom.nc"]
+        return summary.numbers(SimpleNamespace(**files, roms=roms), {"b": OPERATING})
 
     return summed
 
@@ -121,9 +131,9 @@ def test_a_peak_in_units_of_engines(summed):
     assert (row["amplitude other (um)"], row["word"]) == ("", ONE_MOTION)
     assert {"4200 ±9", "0.350", "40 ±5%", "300 (no ±)", "20 (no ±)", "17 (no ±)"} <= {*cells(found)}
     spaced = summed({"spacing": 0.027 - 3.5e-4})
-    assert cells(spaced)[1] == "4200 ±324"  # no exponent
+    assert cells(spaced)[2] == "4200 ±324"  # no exponent
     ending = summed({"at_end": True})  # on the rise: a bound
-    assert (cells(ending)[1], read_csv(ending)["speed +- (rpm)"]) == ("4200 (end)", "")
+    assert (cells(ending)[2], read_csv(ending)["speed +- (rpm)"]) == ("4200 (end)", "")
 
 
 def test_scenes_with_results_that_are_left_out_are_named(summed):
@@ -143,7 +153,7 @@ def test_what_is_not_known_is_said(summed):
     )
     text = summary.terminal(found)
     assert all(what in text for what in ("mesh", "stress at 4200 rpm, ", "torque (a reason)"))
-    assert cells(found)[2] == "40 (no ±)" and "170 (no ±)" in cells(found)
+    assert cells(found)[3] == "40 (no ±)" and "170 (no ±)" in cells(found)
     row = read_csv(found)
     assert row["torque (N m)"] == row["amplitude +- (um)"] == ""
     # central differences have no runs of other fineness; where nothing was tried, nothing is missed
@@ -162,11 +172,11 @@ def test_scene_says_its_model_its_crossings_and_what_its_ends_show(summed):
     assert "76 DoFs (frequencies within 0.01 % of the full one)" in summary.about(scene)
     assert summary.about(scene).endswith("runs: 40 ok, 1 diverged; no contact: too wide a gap")
     assert summary.notes(scene)[:2] == [
-        "Linear crossings of f₁ (and over f₁(0)): EO 4 at 3720 rpm (0.310).",
+        "Linear crossings of mode 1, rpm: EO 5 1362, EO 4 1861.",  # of the made model, 100 Hz
         "Ends of the sweep: 2400 rpm (0.200): 2 lobes; 4800 rpm (0.400): gap 50.0 and 60.0 µm at "
         "ξ = 1/16 and 15/16, sensitive.",
     ]
-    (foreign,) = summed(model_error={"basis": None, "mesh": None}, crossings={}, ends=[])["scenes"]
+    (foreign,) = summed(model_error={"basis": None, "mesh": None}, ends=[])["scenes"]
     assert "76 DoFs; runs" in summary.about(foreign)
     assert not any("rpm (" in note for note in summary.notes(foreign))
 
@@ -216,7 +226,7 @@ def test_a_second_run_without_result_is_not_known(summed, part, missing):
 
 def test_a_run_that_ended_early_has_a_trend_alone(summed):
     found = summed({"status": "diverged", "verdict": "", "course": {"trend": GROWING}})
-    assert cells(found)[6:10] == [GROWING, "-", "-", "diverged"]
+    assert cells(found)[7:11] == [GROWING, "-", "-", "diverged"]
     assert "damping" not in summary.terminal(found)
     assert read_csv(found)["time_constant (rounds)"] == ""
 
@@ -226,8 +236,8 @@ def test_a_run_says_whether_it_is_steady(summed, trend):
     """No bare +- stands at an amplitude that still grows, or dies out."""
     found = summed({"course": ANSWER["course"] | {"trend": trend}})
     moves = trend in (GROWING, DYING_OUT)
-    assert cells(found)[2] == (f"40 ±5%, {trend}" if moves else "40 ±5%")
-    assert [trend, "18.2", "0.003", ONE_MOTION] == cells(found)[6:10]
+    assert cells(found)[3] == (f"40 ±5%, {trend}" if moves else "40 ±5%")
+    assert [trend, "18.2", "0.003", ONE_MOTION] == cells(found)[7:11]
     row = read_csv(found)
     assert row["trend"] == trend and float(row["largest_round (round)"]) == 17
     assert float(row["time_constant (rounds)"]) == 18.2
@@ -236,7 +246,7 @@ def test_a_run_says_whether_it_is_steady(summed, trend):
 
 def test_a_peak_with_two_motions_has_both_numbers(summed):
     found = summed({"verdict": TWO_MOTIONS, "other": NUMBERS | {"amplitude": 9e-6}})
-    assert cells(found)[2] == "40 or 9 ±5%"
+    assert cells(found)[3] == "40 or 9 ±5%"
     row = read_csv(found)
     assert (row["word"], float(row["amplitude other (um)"])) == (TWO_MOTIONS, pytest.approx(9))
 
@@ -248,7 +258,7 @@ def test_a_run_without_a_result_has_its_status(summed):
 
 
 def test_the_panel_of_a_page_has_the_rows_of_the_summary(summed):
-    panel = summary.panel(OF, {}, STRESS)
+    panel = summary.panel(OF, critical(made_rom(), OPERATING), STRESS)
     shown = summary.shown(summed(stress=STRESS)["scenes"][0])
     tables = [(of["heads"], of["rows"]) for of in panel["tables"]]
     assert (tables[:-1], panel["speeds"]) == (shown, [0.35])  # the last is that of the margins
@@ -262,6 +272,7 @@ def test_a_casing_that_tapers_has_place_u_t_and_second_order(summed):
     errors = {name: 0.05 * value for name, value in numbers.items()}
     course = ANSWER["course"] | {"place": EDGES[1]}
     given = {"numbers": numbers, "errors": errors, "course": course, "beyond": BEYOND}
+    given["place"] = EDGES[1]
     found = summed(given)
     assert {"40 ±5% at ξ = 15/16", "6000 ±5%", "4500 ±5%", "2.1 ±5%"} <= {*cells(found)}
     assert f"{ONE_MOTION}, {BEYOND}" in cells(found)
@@ -275,3 +286,24 @@ def test_a_casing_that_tapers_has_place_u_t_and_second_order(summed):
     assert "40 ±5%" in cells(plain) and read_csv(plain)["place (xi)"] == ""
     (motion, _), _ = summary.shown(plain["scenes"][0])
     assert not [head for head in motion if "u_t" in head or "second" in head]
+
+
+def test_a_peak_names_its_modes_or_says_that_no_crossing_explains_it(summed):
+    """And a line on no integer order its f / Omega."""
+    found = summed({"k": 3.4, "modes": [2, 3], "crossing": 0.34})
+    assert cells(found)[:2] == ["3.4 ±0.05 (f/Ω)", "2 or 3"]
+    row = read_csv(found)
+    assert (row["engine order"], row["mode"], row["frequency (Hz)"]) == ("3.4", "2 or 3", "238")
+    found = summed({"modes": [], "crossing": None})
+    assert cells(found)[1] == "-" and f"{ONE_MOTION}, {NO_CROSSING}" in cells(found)
+
+
+def test_where_there_is_no_peak_is_said_where_it_was_sought(summed):
+    """Of one speed nothing; without contact that the blade is at rest."""
+    none = {"k": None, "modes": [], "crossing": None}
+    where = "Rub peaks: none of mode 1 with EO 4, 5 from 2400 to 4800 rpm."
+    assert where in summary.terminal(summed(none))
+    assert "Rub peaks" not in summary.terminal(summed(none, status={"ok": 1}))
+    at_rest = summary.terminal(summed(status={"no-contact": 3}, peaks=[]))
+    assert "none, as nothing moves the blade: it is at rest at all speeds" in at_rest
+    assert "At 5 of 41 speeds the largest line is a free" in summary.terminal(summed(free=5))

@@ -14,6 +14,7 @@ from rom.model import Rom
 from simulate.errors.signals import leading_gap, leading_wear
 from simulate.sweeps.dataset import statuses
 from simulate.sweeps.peak import along_order, reported
+from simulate.sweeps.plain import mode_name
 
 
 def peaks(runs: xr.Dataset, rom: Rom) -> dict[str, Any]:
@@ -23,7 +24,7 @@ def peaks(runs: xr.Dataset, rom: Rom) -> dict[str, Any]:
     the leading eighth of the chord, over the gap there, as far as they are recorded.
     """
 
-    def over_speeds(k: int | None = None) -> dict[str, Any]:
+    def over_speeds(k: float | None = None) -> dict[str, Any]:
         """Arrays (speeds,) by name; the amplitude is along ``k``, or the largest of all orders."""
         along = {"speed": runs["speed_over_f1"].values}
         if "spectrum" in runs:
@@ -32,15 +33,20 @@ def peaks(runs: xr.Dataset, rom: Rom) -> dict[str, Any]:
             along["wear"] = leading_wear(runs).max(axis=1) / leading_gap(runs)
         return along
 
-    def values_at(index: int, k: int | None = None) -> dict[str, float]:
+    def values_at(index: int, k: float | None = None) -> dict[str, float]:
         """The same at one speed."""
         return {name: float(values[index]) for name, values in over_speeds(k).items()}
 
     numbers: dict[str, Any] = {**statuses(runs)}
+    found = reported(runs, rom)
     _, *responses = over_speeds().values()
     if responses:
         has_result = np.isfinite(responses[0]).any()
         numbers["largest"] = values_at(int(np.nanargmax(responses[0]))) if has_result else {}
+    names = (
+        ", ".join([f"k = {peak.k:g}", *[mode_name(peak.modes)] * (tuple(peak.modes) != (1,))])
+        for peak in found
+    )
     return numbers | {
-        f"k = {k}": values_at(peak.index, k) for k, peak in reported(runs, rom).items()
+        name: values_at(peak.index, peak.k) for name, peak in zip(names, found, strict=True)
     }

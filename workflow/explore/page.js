@@ -61,20 +61,20 @@ const lineNames = () => OPERATING.map(({ name, speed }) => ({ text: name, x: sho
   xanchor: "right", textangle: -90, showarrow: false, font: { size: 11, color: "#00664b" }, bgcolor: "rgba(255,255,255,0.7)" }));
 
 const CAMPBELL = "Campbell diagram, engine orders (EO)";
-const MODES = ["f₁", "f₂", "f₃", "f₄"];
+const MODES = facts.campbell.frequencies.map((_, mode) => "f" + String(mode + 1).replace(/\d/g, (digit) => "₀₁₂₃₄₅₆₇₈₉"[digit]));
 
 function drawCampbell() {
   const { speeds, frequencies } = facts.campbell;
   const top = largest([speeds[speeds.length - 1], ...OPERATING.map(({ speed }) => 1.03 * speed)]), highest = 1.08 * largest(frequencies.map(largest));
-  const orders = range(facts.orders[facts.orders.length - 1], (i) => i + 1);
-  const met = facts.crossings.map(([k, speed]) => ({ x: shown("speed", speed), y: shown("frequency", k * speed), k, speed }));
+  const orders = facts.orders;
+  const met = facts.crossings.map(([mode, k, speed]) => ({ x: shown("speed", speed), y: shown("frequency", k * speed), mode, k, speed }));
   const traces = [
     ...orders.map((k) => ({ x: scaled("speed", [0, top]), y: scaled("frequency", [0, k * top]), mode: "lines", name: `EO ${k}`,
       hoverinfo: "skip", line: { color: "#808080", width: 0.8, dash: "dot" } })),
     ...frequencies.map((of, mode) => ({ x: scaled("speed", speeds), y: scaled("frequency", of), mode: "lines", name: MODES[mode],
       line: { color: COLOURS[1 + mode], dash: DASHES[(2 + mode) % DASHES.length], width: 2 } })),
-    { x: met.map(({ x }) => x), y: met.map(({ y }) => y), mode: "markers", name: "crossings of f₁", hoverinfo: "text",
-      text: met.map(({ k, speed }) => `EO ${k} meets f₁ at ${said("speed", speed)}`),
+    { x: met.map(({ x }) => x), y: met.map(({ y }) => y), mode: "markers", name: "linear crossings", hoverinfo: "text",
+      text: met.map(({ mode, k, speed }) => `EO ${k} meets ${MODES[mode - 1]} at ${said("speed", speed)}`),
       marker: { symbol: "square", size: 7, color: "#D55E00" } },
   ];
   const named = orders.map((k) => ({ text: `EO ${k}`, x: 1, xref: "paper", xanchor: "left", y: shown("frequency", k * top),
@@ -96,7 +96,7 @@ function drawOrders(codes) {
   const mode = facts.speeds.length < FEW ? "lines+markers" : "lines";
   const traces = facts.orders.map((k, j) => ({
     x: scaled("speed", facts.speeds), y: linear(along.map((values) => values[j])), mode, name: `EO ${k}`,
-    line: { dash: DASHES[j % DASHES.length], color: COLOURS[j % COLOURS.length], width: k === 4 || k === 6 ? 2.2 : 1.3 },
+    line: { dash: DASHES[j % DASHES.length], color: COLOURS[j % COLOURS.length], width: hasPeak(k) ? 2.2 : 1.3 },
     visible: drawn.has(k),
   }));
   const failed = facts.speeds.filter((_, i) => !facts.has_result[i]);
@@ -104,8 +104,8 @@ function drawOrders(codes) {
     traces.push({ x: scaled("speed", failed), y: failed.map(() => 10 ** (low + 0.1)), mode: "markers", name: "no result",
       marker: { symbol: "x", size: 8, color: "#000" } });
   const marks = facts.peaks.map((peak) => ({
-    x: shown("speed", facts.speeds[peak.index]), y: Math.log10(shown("length", peak.amplitude)), text: `EO ${peak.k}<br>${peakText(peak)}`,
-    hovertext: `${(facts.speeds[peak.index] / peak.crossing).toFixed(3)} of the linear crossing with f₁, ${said("speed", peak.crossing)}`,
+    x: shown("speed", facts.speeds[peak.index]), y: Math.log10(shown("length", peak.amplitude)), text: `${peak.name}<br>${peakText(peak)}`,
+    hovertext: peak.says,
     showarrow: true, arrowhead: 0, ax: 0, ay: -26 - 28 * above(peak), font: { size: 11 }, bgcolor: "rgba(255,255,255,0.7)",
   }));
   const narrow = byId("orders").clientWidth < 600;
@@ -126,7 +126,8 @@ function above(peak) { // neighbours at lower speeds that its label stands above
   return facts.peaks.filter((other) => speed(other) < speed(peak) && speed(peak) - speed(other) < near).length;
 }
 
-const drawnAtFirst = (k) => k === 2 || facts.peaks.some((peak) => peak.k === k);
+const hasPeak = (k) => facts.peaks.some((peak) => peak.k === k);
+const drawnAtFirst = (k) => facts.of_casing.includes(k) || hasPeak(k);
 const drawn = new Set(facts.orders.filter(drawnAtFirst));
 const peakText = (peak) => `${peak.at_end ? "≥ " : ""}${said("speed", facts.speeds[peak.index])}`;
 

@@ -1,22 +1,20 @@
 """The sweep on the page: facts as plain values, and arrays over the speeds."""
 
-from collections.abc import Iterable
-from math import isfinite, isinf, isnan
+from collections.abc import Iterable, Mapping
+from math import isinf, isnan
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from geometry.blade import RPM
 from geometry.tip import EDGES
 from simulate.contact.places import closing_rows
 from simulate.errors.signals import leading_gap, lobe_count
-from simulate.sweeps import peak
-from simulate.sweeps.peak import along_order, crossing
+from simulate.sweeps.peak import along_order
 from workflow.figures.marks import frequencies_over_speed
 from workflow.figures.response import Response
 
-ORDERS = (2, *peak.ORDERS)  # engine orders of the critical-speed diagram
-MODES = 4  # natural frequencies of the Campbell diagram
 HIGHEST = 2.5  # f / f1(0) of spectra
 FLOOR = 1e-6  # gaps, least amplitude on a logarithmic scale
 ANGLES, COARSE = 720, 180  # around the casing: of profiles, and of the liner's surface
@@ -43,7 +41,7 @@ def arrays(response: Response) -> Arrays:
         by_name["worn"] = around(response.wear, ANGLES)
         by_name["liner"] = around(sweep["wear"].values / gap, COARSE)
     if "spectrum" in sweep:
-        by_name["along"] = log10(np.stack([along_order(sweep, k) for k in ORDERS], axis=1))
+        by_name["along"] = log10(np.stack([along_order(sweep, k) for k in response.orders], axis=1))
         by_name["spectrum"] = log10(response.spectrum[:, : shown_bins(response)])
     if "envelope" in sweep:
         by_name["history"] = sweep["envelope"].values / gap
@@ -72,10 +70,15 @@ def shown_bins(response: Response) -> int:
     return int(HIGHEST / response.speeds.min() * response.scene.record.spectrum_rounds) + 2
 
 
-def facts(response: Response, blade: str, scene: str) -> dict[str, Any]:
-    """Names, units, natural frequencies, and values of each speed, as plain values."""
+def facts(
+    response: Response, blade: str, scene: str, campbell: Mapping[str, Any]
+) -> dict[str, Any]:
+    """Names, units, natural frequencies, and values of each speed, as plain values.
+
+    ``campbell``: as of ``simulate.sweeps.crossings.critical``.
+    """
     sweep, rom = response.sweep, response.rom
-    speeds, frequencies = frequencies_over_speed(rom, MODES)
+    speeds, frequencies = frequencies_over_speed(rom, campbell["modes"])
     return {
         "blade": blade,
         "scene": scene,
@@ -83,14 +86,18 @@ def facts(response: Response, blade: str, scene: str) -> dict[str, Any]:
         "place": response.place.replace("$\\xi$", "ξ"),
         "norms": response.units["speed"][0].scale == 1.0,
         "campbell": {"speeds": speeds.tolist(), "frequencies": frequencies.T.tolist()},
-        "crossings": [(k, speed) for k in ORDERS if isfinite(speed := crossing(rom, k))],
+        "crossings": [
+            (row["modes"][0], row["k"], row["rpm"] / (RPM * rom.omega1))
+            for row in campbell["crossings"]
+        ],
         "signal_time": sweep["motion_time"].values.tolist() if "motion" in sweep else [],
         "f1_Hz": sweep.attrs["f1_Hz"],
         "gap_um": 1e6 * leading_gap(sweep),
         "rounds": response.scene.rounds,
         "travels": bool(response.scene.casing.travelling),
         "spectrum_rounds": response.scene.record.spectrum_rounds,
-        "orders": list(ORDERS),
+        "orders": response.orders,
+        "of_casing": sorted(response.scene.casing.orders),
         "highest": HIGHEST,
         "speeds": response.speeds.tolist(),
         "f1": sweep["f1"].values.tolist(),
@@ -101,8 +108,9 @@ def facts(response: Response, blade: str, scene: str) -> dict[str, Any]:
         "peaks": [
             {
                 "k": reported.k,
+                "name": reported.name,
                 "index": reported.index,
-                "crossing": reported.crossing,
+                "says": reported.rises_from,
                 "amplitude": reported.amplitude,
                 "at_end": reported.at_end,
             }

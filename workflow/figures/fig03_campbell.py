@@ -8,19 +8,19 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from geometry.blade import MODES, ORDERS
 from rom.check import RomCheck
 from rom.model import Rom
-from simulate.sweeps.peak import BEYOND, critical
+from simulate.sweeps.crossings import BEYOND, critical
 from simulate.sweeps.plain import CriticalSpeed
 from workflow import margins
 from workflow.figures import style, units
 from workflow.figures.marks import engine_order, frequencies_over_speed, operating_lines
 from workflow.paper.printed import CROSSING, HALF_DIGIT
 
-MODES = 7  # compared by the paper
-ENGINE_ORDERS = (4, 5, 6, 8)
-OVER_ALL = (4, 8, 16, 32)  # with all modes
-PLAIN: Mapping[str, Any] = {"lines": {}, "modes": 0, "orders": (), "peaks": ENGINE_ORDERS}
+SHOWN = 7  # modes, compared by the paper
+PLAIN: Mapping[str, Any] = {"lines": {}, "modes": MODES, "orders": ORDERS, "excited": {}}
+FASTEST = 4  # crossings marked where no casing and no operating speed is known
 HEADROOM = 0.06  # above f1, for the labels of the engine orders
 OURS = {"marker": "s", "color": style.VERMILLION, "markersize": 4.5, "linestyle": "none"}
 BEHIND = {"facecolor": "white", "edgecolor": "none", "pad": 0.6}
@@ -30,10 +30,13 @@ BEHIND = {"facecolor": "white", "edgecolor": "none", "pad": 0.6}
 def draw(
     rom: Rom, check: RomCheck, printed: bool = False, operating: Mapping[str, Any] = PLAIN
 ) -> Figure:
-    """Mode 1 with the engine orders that cross it, and all modes.
+    """Mode 1 with engine orders that cross it, and all modes with those that cross others.
+
+    Marked are the crossings that tables show: near operating speeds, or of orders that the casings
+    excite; where there is neither those of mode 1 at the highest speeds.
 
     ``printed``: whether the crossings that the paper prints are marked; ``operating``: as of
-    ``simulate.sweeps.peak.critical``. With operating speeds the diagram goes on above the top
+    ``simulate.sweeps.crossings.critical``. With operating speeds the diagram goes on above the top
     speed of the model, and says below which crossings are next to them.
     """
     drawn, (first, every) = style.subplots(
@@ -43,21 +46,21 @@ def draw(
     f1 = _frequencies(first, rom, check, 1, beyond=bool(lines))
     margin = HEADROOM * f1.max()
     first.set_ylim(f1.min() - 2 * margin, f1.max() + margin)
-    modes = _frequencies(every, rom, check, MODES, beyond=bool(lines))
+    modes = _frequencies(every, rom, check, SHOWN, beyond=bool(lines))
     for mode, last in enumerate(modes[-1], start=1):
         style.note(every, (every.get_xlim()[1], last), str(mode), (5, 0), va="center")
     every.set_ylim(0, 1.2 * modes.max())
     # the error of the mesh is not known
     rows: list[margins.Margin] = [{**row, "rpm_error": None} for row in margins.rows(campbell)]
-    shown = margins.near(rows) if lines else campbell["crossings"]
+    shown = margins.near(rows) or [row for row in rows if row["modes"] == [1]][-FASTEST:]
     both = units.both(printed, rom.f1)
-    for axes, orders, first_mode in ((first, ENGINE_ORDERS, True), (every, OVER_ALL, False)):
-        marked = [crossing for crossing in shown if (crossing["mode"] == 1) == first_mode]
-        _crossings(axes, orders, marked, rom.f1, both["speed"][0])
+    for axes, first_mode in ((first, True), (every, False)):
+        marked = [crossing for crossing in shown if (crossing["modes"] == [1]) == first_mode]
+        _crossings(axes, marked, rom.f1, both["speed"][0])
         units.show(axes.xaxis, style.below, *both["speed"])
     if printed:
         _printed(first)
-    texts = {name: "\n".join(margins.nearest(campbell, rows, name, "crossing")) for name in lines}
+    texts = {name: "\n".join(margins.nearest(campbell, rows, name)) for name in lines}
     operating_lines(drawn, first, rom.f1, lines, texts)
     operating_lines(None, every, rom.f1, lines)
     first.legend(
@@ -104,13 +107,12 @@ def _frequencies(
 
 def _crossings(
     axes: Axes,
-    orders: Sequence[int],
     marked: Sequence[CriticalSpeed],
     f1_Hz: float,
     unit: units.Unit,
 ) -> None:
-    """Draw engine orders, and mark crossings with their speed in a unit."""
-    for k in sorted({*orders, *(crossing["k"] for crossing in marked)}):
+    """Draw the engine orders of crossings, and mark these with their speed in a unit."""
+    for k in sorted({crossing["k"] for crossing in marked}):
         engine_order(axes, k, "--", distance=14)  # beyond the numbers of the modes
     over_f1 = {(crossing["rpm"] / (units.RPM_PER_HZ * f1_Hz), crossing["k"]) for crossing in marked}
     places = [

@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 from fem.fatigue import MEGA, allowed
 from geometry.blade import Fatigue
 from simulate.sweeps.peak import Peak
+from simulate.sweeps.plain import order_name
 from workflow.figures import style
 
 POINTS = 401  # of the line
@@ -48,7 +49,7 @@ def draw(stress: Mapping[str, Any], answers: Mapping[str, Any]) -> Figure:
         place = places[peak.Omega_c]
         near.plot(*place, "o", color=style.VERMILLION, markersize=3.5, label="peak")
         if rows[peak.Omega_c]["margin"] < NAMED * least:
-            style.note(near, place, f"EO {peak.k}", (4, 3))
+            style.note(near, place, order_name(peak.k), (4, 3))
     style.legend(drawn, "lower center", ncols=3)
     drawn.suptitle(
         f"scene {stress['scene']}, blade {stress['blade']}: least margin {least:.3g}", fontsize=8

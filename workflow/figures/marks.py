@@ -45,7 +45,7 @@ def speed_text(response: Response, peak: Peak) -> str:
     return beyond + unit.number.format(unit.scale * peak.Omega_c) + goes_on
 
 
-def engine_order(axes: Axes, k: int, dashes: str, distance: float = 4) -> Annotation:
+def engine_order(axes: Axes, k: float, dashes: str, distance: float = 4) -> Annotation:
     """Draw the line k Omega within the axes' limits; return its label, at the end of the line.
 
     ``distance``: points of type from the right-hand side of the axes to a label there.
@@ -89,24 +89,26 @@ def over_casing(axes: Axes, values: NDArray[np.float64], **line: Any) -> None:
 
 
 def mark_speeds(axes: Axes, response: Response) -> None:
-    """Mark in two rows above the axes the crossings of f1 with engine orders, and the peaks.
+    """Mark in two rows above the axes the peaks, and the linear crossings from which they rise.
 
     Crossings left of the axes are left out.
     """
     peaks, start = response.peaks, axes.get_xlim()[0]
     if not peaks:
         return
-    crossings = {peak.k: peak.crossing for peak in peaks if peak.crossing >= start}
-    _row(axes, CROSSINGS_AT, "white", "crossing of $f_1$", crossings)
-    _row(axes, PEAKS_AT, style.BLACK, "peak", {peak.k: peak.Omega_c for peak in peaks})
+    crossings = [(p.k, p.crossing) for p in peaks if p.crossing and p.crossing >= start]
+    _row(axes, CROSSINGS_AT, "white", "crossing", crossings)
+    _row(axes, PEAKS_AT, style.BLACK, "peak", [(peak.k, peak.Omega_c) for peak in peaks])
 
 
-def _row(axes: Axes, height: float, face: str, title: str, speeds: dict[int, float]) -> None:
+def _row(
+    axes: Axes, height: float, face: str, title: str, marked: Sequence[tuple[float, float]]
+) -> None:
     """Draw a triangle and k at the speed of each engine order, with the row's title at the left."""
-    across = axes.get_xaxis_transform()
+    across, speeds = axes.get_xaxis_transform(), [speed for _, speed in marked]
     axes.text(0.005, height, f"{title}, EO", transform=axes.transAxes, fontsize=7, va="center")
     axes.plot(
-        [*speeds.values()],
+        speeds,
         [height] * len(speeds),
         "v",
         transform=across,
@@ -116,9 +118,9 @@ def _row(axes: Axes, height: float, face: str, title: str, speeds: dict[int, flo
         markersize=4,
         clip_on=False,
     )
-    places = spread(np.array([*speeds.values()]), LINE * np.ptp(axes.get_xlim()))
-    for k, place in zip(speeds, places, strict=True):
-        style.note(axes, (place, height), str(k), (0, 3.5), xycoords=across, ha="center")
+    places = spread(np.array(speeds), LINE * np.ptp(axes.get_xlim()))
+    for (k, _), place in zip(marked, places, strict=True):
+        style.note(axes, (place, height), f"{k:.3g}", (0, 3.5), xycoords=across, ha="center")
 
 
 def hatch(drawn: Figure, panels: Sequence[Axes], response: Response, observable: str) -> None:

@@ -10,12 +10,13 @@ import xarray as xr
 from matplotlib.ticker import EngFormatter
 from numpy.typing import NDArray
 
+from geometry.blade import ORDERS
 from rom.model import Rom
 from simulate.errors.signals import leading_gap, leading_wear
 from simulate.marching import SENSITIVE_FROM, WITH_RESULT
 from simulate.scene import LEADING, Scene
 from simulate.sweeps.dataset import load, scene_of
-from simulate.sweeps.peak import Peak, peaks_of
+from simulate.sweeps.peak import Peak, Responses, peak_of, reported
 from workflow.figures import style, units
 from workflow.markdown import rounded
 
@@ -82,14 +83,25 @@ class Response:
         return self.sweep["spectrum"].values / leading_gap(self.sweep)
 
     @cached_property
-    def by_order(self) -> dict[int, Peak]:
-        """Peaks by engine order, for orders with a result near their crossing with f1."""
-        return peaks_of(self.sweep, self.rom)
+    def peaks(self) -> list[Peak]:
+        """Peaks that figures mark, speeds ascending."""
+        return reported(self.sweep, self.rom)
 
     @property
-    def peaks(self) -> list[Peak]:
-        """Peaks that figures mark."""
-        return [peak for peak in self.by_order.values() if peak.reported]
+    def orders(self) -> list[int]:
+        """Engine orders of which peaks are sought, those of the casing and of its side bands."""
+        sought = np.atleast_1d(
+            self.sweep.attrs.get("orders", ORDERS)
+        )  # of one, files have a number
+        return sorted({*map(int, sought), *self.scene.casing.excites})
+
+    def of_f1(self, k: int) -> Peak | None:
+        """Largest response along an engine order near its crossing with f1, reported or not."""
+        return peak_of(self.sweep, self.rom, k)
+
+    def along(self, peak: Peak) -> NDArray[np.float64]:
+        """Amplitude (speeds,) over gap along the order of a peak, at its place."""
+        return Responses.of(self.sweep, self.rom).series(peak.k, peak.place)
 
     @property
     def observables(self) -> list[str]:

@@ -14,10 +14,12 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import MultipleLocator
 from numpy.typing import NDArray
 
-from geometry.blade import RPM
+from geometry.blade import MODES, RPM
 from simulate.errors.signals import spectrogram, spectrum
+from simulate.sweeps.crossings import crossing
 from simulate.sweeps.dataset import SPEED, Sweep
-from simulate.sweeps.peak import Peak, along_order, crossing
+from simulate.sweeps.peak import Peak, along_order
+from simulate.sweeps.plain import order_name
 from workflow.figures import style, units
 from workflow.figures.marks import (
     LINE,
@@ -33,21 +35,19 @@ from workflow.figures.response import Response
 from workflow.paper.measure import HIGHEST, SPECTRUM_ROUNDS, disorder, share_of_mode_1
 from workflow.paper.printed import CRITICAL, ENGINE_ORDER, expected
 
-SHOWN = 2.5  # f / f1(0), highest in the map over the speed
+SHOWN = 2.5  # f / f1(0), highest in the map over the speed, if no peak is above
 DECADES = 3  # of the scale of amplitudes
-LINES = (2, 4, 6, 8, 10, 12, 14)  # engine orders drawn in the map
-NAMED = (2, 4, 6, 8, 10, 14)  # and named: more have no room
-CURVES = {  # engine orders drawn as amplitudes
-    2: (":", style.GREY),
-    4: ("-", style.BLACK),
-    5: ("-.", style.GREEN),
-    6: ("--", style.VERMILLION),
-    8: ((0, (1, 1)), style.BLUE),
-}
-OTHERS = {"color": style.GREY, "linewidth": 0.8}  # engine orders with a peak, beside CURVES
+LOOKS = (  # of the engine orders drawn as amplitudes over all speeds
+    ("-", style.BLACK),
+    ("--", style.VERMILLION),
+    ("-.", style.GREEN),
+    ((0, (1, 1)), style.BLUE),
+    (":", style.GREY),
+)
+OTHERS = {"color": style.GREY, "linewidth": 0.8}  # further engine orders with a peak
 NEAR = 0.07  # of the critical speed, to both sides: where these are drawn
 SHADE = 0.25  # opacity of the paper's critical speeds
-MODES = 7  # natural frequencies marked in them
+MARKED = 7  # natural frequencies marked in spectra over the time
 WINDOW = 2  # revolutions, of a spectrum
 SLICES = 16  # spectra per revolution
 AMPLITUDES = 1e-4, 1.0  # gaps, ends of their scale
@@ -63,19 +63,21 @@ def over_speeds(
     printed: str | None = None,
     operating: Mapping[str, Any] = NO_LINES,
     label: str = "",
-    highest: float = SHOWN,
+    highest: float | None = None,
 ) -> Figure:
     """Map of amplitude over frequency and speed; below, amplitude along the engine orders.
 
     ``printed``: part of the paper whose critical speeds are marked, as of ``CRITICAL``;
-    ``operating``: as of ``simulate.sweeps.peak.critical``; ``label``: of the amplitude, if it is
-    not that of u_r; ``highest``: frequency over f1(0) in the map.
+    ``operating``: as of ``simulate.sweeps.crossings.critical``; ``label``: of the amplitude, if it
+    is not that of u_r; ``highest``: frequency over f1(0) in the map, by default above all peaks.
     """
     drawn, (top, bottom) = style.subplots(
         style.DOUBLE, 5.5, 2, letters=True, sharex=True, height_ratios=(1.8, 1)
     )
     largest = sweep.units["length"][0].scale * np.nanmax(sweep.spectrum[:, 1:], initial=0)
     limits = style.decades(largest, DECADES)
+    peaks = [1.1 * peak.k * peak.Omega_c for peak in sweep.peaks]
+    highest = highest or max([SHOWN, *peaks])
     _map(top, sweep, limits, label or f"amplitude of $u_r$ at {sweep.place}", highest)
     _overlay(top, sweep)
     _amplitudes(bottom, sweep, printed)
@@ -114,13 +116,15 @@ def _map(
 
 
 def _overlay(axes: Axes, response: Response) -> None:
-    """Draw f1(Omega), the engine orders, and rings at the peaks."""
-    speeds, f1 = frequencies_over_speed(response.rom, 1)
-    axes.plot(speeds, f1, color=style.BLUE, linewidth=1.2, label=r"$f_1(\Omega)$")
-    for k in sorted({*LINES, *(peak.k for peak in response.peaks)}):
+    """Draw natural frequencies, engine orders with peaks or of the casing, rings at the peaks."""
+    speeds, modes = frequencies_over_speed(response.rom, MODES)
+    first, *_ = axes.plot(speeds, modes, color=style.BLUE, linewidth=1.2)
+    first.set_label(r"$f(\Omega)$")
+    orders = {peak.k for peak in response.peaks if peak.k % 1 == 0}
+    for k in orders | response.scene.casing.orders:
         label = engine_order(axes, k, ":")
         label.set_in_layout(False)  # there is room outside the axes
-        label.set_visible(k in NAMED and label.xy[0] >= axes.get_xlim()[0])
+        label.set_visible(label.xy[0] >= axes.get_xlim()[0])
     peaks = [(peak.Omega_c, peak.k * peak.Omega_c) for peak in response.peaks]
     if peaks:
         axes.plot(
@@ -138,11 +142,12 @@ def _overlay(axes: Axes, response: Response) -> None:
 def _amplitudes(axes: Axes, response: Response, printed: str | None) -> None:
     """Draw the amplitude along engine orders over the speed, and label the peaks."""
     unit, second = response.units["length"]
-    for k, (dashes, colour) in CURVES.items():
+    curves = _looks(response, printed)
+    for k, (dashes, colour) in curves.items():
         along = unit.scale * along_order(response.sweep, k)
         axes.plot(response.speeds, along, linestyle=dashes, color=colour, label=f"EO {k}")
-    _others(axes, response)
-    paper = _printed(axes, response, printed) if printed else []
+    _others(axes, response, curves)
+    paper = _printed(axes, response, printed, curves) if printed else []
     axes.legend(
         handles=[*axes.get_legend_handles_labels()[0], *paper],
         loc="center left",
@@ -158,23 +163,37 @@ def _amplitudes(axes: Axes, response: Response, printed: str | None) -> None:
         _name(axes, response, peak, across)
 
 
-def _others(axes: Axes, response: Response) -> None:
-    """Draw the amplitude along each further engine order with a peak, about its critical speed."""
+def _looks(response: Response, printed: str | None) -> dict[int, tuple[Any, str]]:
+    """Dashes and colour of the engine orders drawn over all speeds.
+
+    Those of the paper's critical speeds, then those of the highest peaks, then those of the casing.
+    """
+    peaks = sorted(response.peaks, key=lambda peak: -peak.amplitude)
+    of_peaks = [peak.k for peak in peaks if peak.k % 1 == 0]
+    of_paper = CRITICAL[printed] if printed else ()
+    orders = dict.fromkeys([*of_paper, *of_peaks, *sorted(response.scene.casing.orders)])
+    return dict(sorted(zip(orders, LOOKS, strict=False)))
+
+
+def _others(axes: Axes, response: Response, curves: Mapping[int, Any]) -> None:
+    """Draw the amplitude along the order of each further peak, about its critical speed."""
     label = "other peaks"
     for peak in response.peaks:
-        if peak.k not in CURVES:
+        if peak.k not in curves:
             near = abs(response.speeds - peak.Omega_c) <= NEAR * peak.Omega_c
-            along = response.units["length"][0].scale * along_order(response.sweep, peak.k)
+            along = response.units["length"][0].scale * response.along(peak)
             axes.plot(response.speeds[near], along[near], label=label, **OTHERS)
             label = None
 
 
-def _printed(axes: Axes, response: Response, part: str) -> list[Patch]:
+def _printed(
+    axes: Axes, response: Response, part: str, curves: Mapping[int, tuple[Any, str]]
+) -> list[Patch]:
     """Shade the paper's critical speeds in the colours of their orders; return their key."""
     across = axes.get_xaxis_transform()
     for k in CRITICAL[part]:
         low, high = expected(part, k, crossing(response.rom, k))
-        axes.axvspan(low, high, color=CURVES[k][1], alpha=SHADE, linewidth=0, zorder=0)
+        axes.axvspan(low, high, color=curves[k][1], alpha=SHADE, linewidth=0, zorder=0)
         style.note(axes, ((low + high) / 2, 0), str(k), (0, 2), xycoords=across, ha="center")
     return [Patch(color=style.GREY, alpha=SHADE, linewidth=0, label=r"$\Omega_c$, paper")]
 
@@ -184,7 +203,7 @@ def _name(axes: Axes, response: Response, peak: Peak, across: float) -> None:
     place = peak.Omega_c, response.units["length"][0].scale * peak.amplitude
     axes.plot(*place, ".", color=style.BLACK, markersize=4)
     axes.annotate(
-        f"EO {peak.k}:  {speed_text(response, peak)}",
+        f"{order_name(peak.k)}:  {speed_text(response, peak)}",
         place,
         (across, 1.03),
         textcoords=axes.get_xaxis_transform(),
@@ -210,7 +229,9 @@ def of_gauge(sweep: Response, operating: Mapping[str, Any] = NO_LINES) -> Figure
     """As ``over_speeds``, of the strain along the first grid by the vibration."""
     first = sweep.sweep["gauge_strain"].isel(gauge=0)
     amplitudes = (SPEED, "bin"), [spectrum(motion) for motion in first.values]
-    strains = sweep.sweep.assign(spectrum=amplitudes).assign_attrs(gap_m=STRAIN)
+    displacements = ["along", "beside", "beside_order", "place"]
+    of_strain = sweep.sweep.drop_vars(displacements, errors="ignore")
+    strains = of_strain.assign(spectrum=amplitudes).assign_attrs(gap_m=STRAIN)
     return over_speeds(
         Strain(strains, sweep.rom),
         operating=operating,
@@ -244,12 +265,12 @@ def over_time(without: Response, withit: Response) -> Figure:
     drawn, panels = style.subplots(style.DOUBLE, 5.4, 2, letters=True, sharex=True, sharey=True)
     for axes, response, title in zip(panels, (without, withit), TITLES, strict=True):
         axes.set(ylabel=style.FREQUENCY_LABEL, ylim=(0, HIGHEST))
-        peak = response.by_order.get(ENGINE_ORDER)
+        peak = response.of_f1(ENGINE_ORDER)
         if peak is None:
             axes.set_title(f"{title}: no speed near the peak has a result")
             continue
         omega, _ = response.rom.modes(float(response.sweep["speed"][peak.index]))
-        modes = omega[:MODES] / response.rom.omega1
+        modes = omega[:MARKED] / response.rom.omega1
         axes.set_title(f"{title}, {_at_peak(response, peak)}")
         _spectrogram(axes, response, peak)
         _mark_modes(axes, modes)

@@ -7,9 +7,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MultipleLocator
-from scipy.signal import find_peaks
 
-from simulate.errors.signals import leading_gap, lobe_count
+from simulate.errors.signals import leading_gap, lobe_count, maxima
 from workflow.figures import style, units
 from workflow.figures.marks import CASING_ANGLE, hatch, mark_speeds, over_casing, speed_text
 from workflow.figures.response import Response
@@ -77,7 +76,7 @@ def _printed(axes: Axes, response: Response, part: str) -> None:
     """
     off, orders = LOBES[part]
     speeds = {
-        **{k: peak.Omega_c for k, peak in response.by_order.items()},
+        **{k: peak.Omega_c for k in orders if (peak := response.of_f1(k))},
         **{k: speed for k, speed in CRITICAL[part].items() if k not in CROSSING},
     }
     points = [
@@ -112,7 +111,7 @@ def profiles(sweeps: Sequence[Response]) -> Figure:
 
 def _profile(axes: Axes, response: Response, **line: Any) -> None:
     """Draw the profile at the peak; without a peak, the legend says so."""
-    peak = response.by_order.get(ENGINE_ORDER)
+    peak = response.of_f1(ENGINE_ORDER)
     if peak is None:
         axes.plot([], [], label=f"{response.names}: no speed near the peak", **line)
         return
@@ -128,7 +127,7 @@ def _profile(axes: Axes, response: Response, **line: Any) -> None:
 def _nearest(axes: Axes, response: Response) -> None:
     """Mark the angles at which the casing is closest to the blade."""
     inward = response.scene.casing.inward(np.radians(DEGREES), leading_gap(response.sweep))
-    nearest = DEGREES[find_peaks(inward)[0]]
+    nearest = DEGREES[maxima(inward)[0]]
     axes.vlines(
         nearest,
         0,

@@ -5,8 +5,8 @@ from typing import Any
 from geometry.blade import Blade
 from geometry.project import read_json, write_whole
 from rom.reconstruct import Basis
+from simulate.sweeps.crossings import critical
 from simulate.sweeps.dataset import origin
-from simulate.sweeps.peak import critical
 from workflow.explore import page
 from workflow.explore.blade import moving
 from workflow.explore.results import arrays, facts
@@ -22,24 +22,24 @@ def write(
     sweep: str,
     answers: str,
     stress: dict[str, Any] | None,
-    operating: dict[str, object],
+    operating: dict[str, Any],
     names: dict[str, str],
     html: str,
 ) -> None:
     """Write the page.
 
-    ``operating``: as of ``simulate.sweeps.peak.critical``.
+    ``operating``: as of ``simulate.sweeps.crossings.critical``.
     """
     response = Response.read(sweep, rom)
     full_basis = Basis.load(basis, origin(response.sweep))
     motion, blade_arrays = None, {}
     if "motion" in response.sweep:
         motion, blade_arrays = moving(blade, mesh, full_basis, response.sweep, response.rom)
-    campbell = operating and critical(response.rom, operating)
+    campbell = critical(response.rom, operating)
     summary_panel = panel(read_json(answers), campbell, stress)
-    shown = facts(response, names["blade"], names["scene"]) | {
+    shown = facts(response, names["blade"], names["scene"], campbell) | {
         "motion": motion,
         "answers": summary_panel,
-        "operating": operating.get("lines", {}),
+        "operating": operating["lines"],
     }
     write_whole(page.html(shown, arrays(response) | blade_arrays), html)

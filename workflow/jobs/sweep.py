@@ -1,5 +1,7 @@
 """Whole sweeps: with more speeds around the peaks that the scene asks for."""
 
+from typing import Any
+
 from geometry.project import Say
 from rom.model import Rom
 from simulate.errors.accuracy import Choice
@@ -14,12 +16,16 @@ def of_blocks(
     settings: Choice | None,
     start: Sweep | None,
     blocks: list[Sweep],
+    sought: dict[str, Any],
     names: dict[str, str],
     sweep: str,
     tell: Say,
 ) -> None:
-    """Merge ``blocks``, and add speeds around peaks."""
-    runs = merge(blocks)
+    """Merge ``blocks``, and add speeds around peaks.
+
+    ``sought``: the number of ``modes``, and the ``orders``, of which peaks are sought.
+    """
+    runs = merge(blocks).assign_attrs(sought)
     require_rom(runs, rom)
     swept = close_in(scene, rom, runs, tell, settings, start)
     save(swept.assign_attrs(name=names["scene"]), sweep)

@@ -29,12 +29,14 @@ from simulate.errors.signals import (
 )
 from simulate.marching import WITH_RESULT, march, prepare
 from simulate.scene import LEADING, Scene
+from simulate.sweeps.crossings import crossing
 from simulate.sweeps.dataset import over_f1, scene_of, statuses
-from simulate.sweeps.peak import ORDERS, Peak, crossing, peak_of
+from simulate.sweeps.peak import Peak, peak_of
 from workflow.paper.grid import coating_of, worst
 from workflow.paper.peaks import lobes_over_speed, peak
 from workflow.paper.printed import WORST
 
+ORDERS = range(3, 15)  # engine orders along which the paper sees peaks, or could
 NEAR = (0.97, 1.25)  # speeds over the crossing of k at which k lobes belong to that resonance
 HIGHEST, SPECTRUM_ROUNDS = 20, 10  # highest frequency of a spectrum over f1(0); its revolutions
 RESONANT = 0.05  # half-width of a peak over Omega_c

@@ -2,6 +2,7 @@ import logging
 import os
 import re
 from functools import cache
+from itertools import chain
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
@@ -12,6 +13,7 @@ from geometry.project import SettingsError, fingerprint, sources_of, yaml_file
 from rom.speeds import basis_speeds, check_speeds
 from simulate.scene.design import Design, refuse
 from simulate.scene import Scene, fault_of_blade
+from simulate.scene.casing import CASING
 from workflow.config import read_config
 from workflow.summary import last_words
 
@@ -321,20 +323,23 @@ def settings_told(wildcards):
     return Told(scene.model_dump(mode="json"))
 
 
-def operating_of(blade):
-    """Operating speeds of a blade, rpm by name, and the crossings of which margins are told.
+def sought_of(blade):
+    """The number of modes, and the engine orders, whose critical speeds are told of a blade."""
+    return blade_settings(blade).margins.model_dump()
 
-    Empty without such speeds. All scenes to deliver of the blade have the same: orders of its file
-    and of standing casings with its modes, and those around whose peaks speeds are added with f1.
+
+def operating_of(blade):
+    """Operating speeds of a blade, rpm by name, the crossings that are told, and what excites some.
+
+    Of all scenes to deliver of the blade, so that all its figures and tables tell the same.
     """
-    settings = blade_settings(blade)
-    if not settings.operating_rpm:
-        return {}
     scenes = [scene for scene in DELIVERED.values() if scene.blade == blade]
-    orders = set(settings.margins.orders).union(*(scene.casing.orders for scene in scenes))
-    peaks = {k for scene in scenes if scene.peaks for k in scene.peaks.orders} - orders
-    of_modes = {"modes": settings.margins.modes, "orders": sorted(orders), "peaks": sorted(peaks)}
-    return {"lines": settings.operating_rpm} | of_modes
+    by_orders = (scene.casing.excites.items() for scene in scenes)
+    # an order of one casing may be a side band of another: the harmonic is told
+    excited = dict(sorted(chain(*by_orders), key=lambda item: item[1] == CASING))
+    sought, lines = sought_of(blade), blade_settings(blade).operating_rpm
+    orders = sorted({*sought["orders"], *excited})
+    return sought | {"lines": lines, "orders": orders, "excited": excited}
 
 
 def of_scenes(pattern):

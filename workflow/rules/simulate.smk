@@ -81,6 +81,7 @@ rule sweep:
     params:
         run="workflow.jobs.sweep:of_blocks",
         scene=settings_told,
+        sought=lambda wildcards: sought_of(wildcards.blade),
     message:
         "Sweep of scene {wildcards.scene}"
     script:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fem.assemble import STATES
-from simulate.sweeps.peak import crossing_of
+from simulate.sweeps.crossings import crossings_of
 from workflow import markdown
 from workflow.experiment.row import ExperimentRow
 
@@ -42,9 +42,10 @@ def crossing(speeds: ArrayLike, omega: ArrayLike, k: int) -> float:
     """
     over_rest = np.array([speeds, omega]) / omega[0]
     squares = np.polyfit(*over_rest**2, 2)
-    return crossing_of(
-        lambda speed: np.sqrt(np.polyval(squares, speed**2)), k, 0.0, over_rest[0, -1]
+    met = crossings_of(
+        lambda speed: np.sqrt([np.polyval(squares, speed**2)]), [k], 0.0, over_rest[0, -1]
     )
+    return met[0][2] if met else np.nan
 
 
 def edge_cuts_table(rows: Sequence[ExperimentRow]) -> str:
