@@ -22,6 +22,7 @@ from geometry.blade import Blade
 from geometry.given import GivenMatrices
 from geometry.project import UserError, command, read_json, write_whole
 from simulate.scene import Scene
+from simulate.sweeps.plain import numbers_of
 from workflow.markdown import WIDTH, change, table, two_digits
 from workflow.paper import long, report
 from workflow.paper.claims import COATING
@@ -53,7 +54,9 @@ type Pages = dict[str, str]  # text by path
 
 def coatings(summary: Mapping[str, Any]) -> str:
     """Critical speeds, amplitudes and wear of both coatings at the two main engine orders."""
-    peaks = {(scene["scene"], str(row["k"])): row for scene, row in _peaks(summary)}
+    peaks = {
+        (scene["scene"], str(row["k"])): row for scene, row in _peaks(summary) if 1 in row["modes"]
+    }
     rows = [
         [COATING[part], k, *cells[:2], f"{paper:.3f}", *cells[2:]]
         for (part, k), (paper, _) in SHIFTS.items()
@@ -65,10 +68,17 @@ def coatings(summary: Mapping[str, Any]) -> str:
 def scenes(summary: Mapping[str, Any]) -> str:
     """All peaks of the scenes over f1(0) and the gap, and facts that no machine changes."""
     rows = [
-        [scene["scene"], row["k"], *over_gap(row), row["lobes"], row["word"]]
+        [
+            scene["scene"],
+            row["k"],
+            numbers_of(row["modes"]),
+            *over_gap(row),
+            row["lobes"],
+            row["word"],
+        ]
         for scene, row in _peaks(summary)
     ]
-    head = ["scene", "k", *OVER_F1, *OVER_GAP, "lobes", "second runs"]
+    head = ["scene", "k", "mode", *OVER_F1, *OVER_GAP, "lobes", "second runs"]
     facts = [
         " ".join([f"- {scene['scene']}: {about(scene)}.", *crossings_and_ends(scene)])
         for scene in summary["scenes"]

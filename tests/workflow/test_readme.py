@@ -147,7 +147,7 @@ def test_the_paragraph_on_the_paper_counts_claims_and_names_those_that_do_not_ho
 
 def test_found_has_both_coatings_at_both_orders_beside_the_papers_shifts():
     told = {"over_crossing": 1.1, "over_gap": {"amplitude": 2, "wear": 0.5}}
-    rows = [{"k": k, "over_f1": k / 10} | told for k in (4, 5, 6)]
+    rows = [{"k": k, "modes": [1], "over_f1": k / 10} | told for k in (4, 5, 6)]
     scenes = [{"scene": f"paper-{part}", "rows": rows} for part in ("e1", "e10", "other")]
     first, *_, last = shown = coatings({"scenes": scenes}).splitlines()[2:]
     assert len(shown) == 4

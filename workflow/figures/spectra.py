@@ -45,6 +45,7 @@ LOOKS = (  # of the engine orders drawn as amplitudes over all speeds
     (":", style.GREY),
 )
 OTHERS = {"color": style.GREY, "linewidth": 0.8}  # further engine orders with a peak
+ROOM = 0.09  # of the width of the map, for the name of an engine order above it
 NEAR = 0.07  # of the critical speed, to both sides: where these are drawn
 SHADE = 0.25  # opacity of the paper's critical speeds
 MARKED = 7  # natural frequencies marked in spectra over the time
@@ -120,11 +121,14 @@ def _overlay(axes: Axes, response: Response) -> None:
     speeds, modes = frequencies_over_speed(response.rom, MODES)
     first, *_ = axes.plot(speeds, modes, color=style.BLUE, linewidth=1.2)
     first.set_label(r"$f(\Omega)$")
-    orders = {peak.k for peak in response.peaks if peak.k % 1 == 0}
-    for k in orders | response.scene.casing.orders:
+    orders = {peak.k for peak in response.peaks if peak.k % 1 == 0} | response.scene.casing.orders
+    (low, high), last = axes.get_xlim(), np.inf
+    for k in sorted(orders):  # their lines end at the right, then nearer and nearer at the top
         label = engine_order(axes, k, ":")
         label.set_in_layout(False)  # there is room outside the axes
-        label.set_visible(label.xy[0] >= axes.get_xlim()[0])
+        end = label.xy[0]
+        label.set_visible(end == high or low <= end <= last - ROOM * (high - low))
+        last = end if label.get_visible() else last
     peaks = [(peak.Omega_c, peak.k * peak.Omega_c) for peak in response.peaks]
     if peaks:
         axes.plot(
