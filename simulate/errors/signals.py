@@ -19,7 +19,7 @@ BLURRED = 4096  # points of a blurred profile
 MODE_BAND = 0.5  # engine orders on either side of a natural frequency, ascribed to its mode
 HALF_ORDER = 0.25  # the amplitude at engine order k is taken within k -+ 0.25
 RESOLVED = 2  # bins, distance of a line from an integer order at which it is on none
-RUBS = 0.1  # of the decay of a free vibration, what a rub that ends falls by less
+FALLS, RUBS = 0.5, 0.9  # of the decay of a free vibration: a line that falls by more is one
 LASTS = 0.99  # share that is left at least of a line that lasts, with hardly any damping
 
 
@@ -52,11 +52,12 @@ class Lines(NamedTuple):
 def lines(u_r: NDArray[np.float64], rounds: int, zeta: float, driven: NDArray[np.bool_]) -> Lines:
     """Lines of the signals ``u_r`` (samples, places) of a whole number of revolutions.
 
-    A free vibration decays by exp(-pi zeta x rounds) from the first half of the revolutions to the
-    second, x = f / Omega. A line lasts that falls by less than half of that; along an engine order
-    that the casing drives by less than ``RUBS`` of it: a rub may end. Nothing is on an order beside
-    which, ``RESOLVED`` bins away or more, a line is twice as strong. A line on no integer order is
-    kept where it is the largest of its spectrum; without two revolutions in each half none is.
+    A free vibration decays by exp(-2 pi zeta x n) from the first half of the revolutions to the
+    second, n revolutions later, x = f / Omega. A line lasts that falls by less than ``FALLS`` of
+    that; along an engine order that the casing drives, where a rub may end, by less than ``RUBS``.
+    Nothing is on an order beside which, ``RESOLVED`` bins away or more, a line is twice as strong.
+    A line on no integer order is kept where it is the largest of its spectrum; without two
+    revolutions in each half none is.
 
     Parameters
     ----------
@@ -75,9 +76,9 @@ def lines(u_r: NDArray[np.float64], rounds: int, zeta: float, driven: NDArray[np
     along *= on_order > _around(whole, rounds * orders, width + RESOLVED * resolved) / 2
     kept = np.zeros_like(whole)
     if resolved:
-        free = np.exp(-np.pi * zeta * rounds * np.arange(last.shape[1]) / half)
-        lasting = last > first * np.minimum((1 + free) / 2, LASTS)
-        rubs = driven & (last > first * (free + RUBS * (1 - free)))[:, half * orders]
+        free = np.exp(-2 * np.pi * zeta * (rounds - half) * np.arange(last.shape[1]) / half)
+        lasting = last > first * np.minimum(1 - FALLS * (1 - free), LASTS)
+        rubs = driven & (last > first * (1 - RUBS * (1 - free)))[:, half * orders]
         along *= rubs | lasting[:, half * orders]
         bins = np.arange(1, rounds * len(orders))
         from_order = bins - rounds * np.rint(bins / rounds).astype(int)

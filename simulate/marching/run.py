@@ -94,9 +94,7 @@ def _start(
     """Room for the outputs, the kernel, and its arguments: a blade at rest over an unworn liner."""
     strips, zeta = setup.strips, scene.damping_ratio
     rounds, until, record = scene.rounds, scene.until, scene.record
-    always = (
-        until or record.history
-    )  # read all outputs, not only in the revolutions of the spectrum
+    always = until or record.history  # else all outputs are read where the spectrum is
     rows = rows_of(setup.Phi_b, setup.Phi_t, setup.Phi_lean)
     scheme = SCHEMES[scene.stepping.scheme].coefficients(setup.omega, rows, zeta, setup.h)
     if (mu := scene.contact.friction) is not None:

@@ -249,7 +249,7 @@ def only_at(
     told: NDArray[np.int64], of_told: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
     """Arrays of ``Responses`` from amplitudes (speeds, orders) at the places ``told`` alone."""
-    along = np.zeros((len(told), len(JUDGED), of_told.shape[1]))
+    along = np.repeat(0 * of_told[:, None], len(JUDGED), axis=1)  # nan stays
     along[np.arange(len(told)), told] = of_told
     return along, along[:, :, 0] * 0, along[:, :, 0] * 0
 

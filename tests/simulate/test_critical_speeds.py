@@ -155,6 +155,18 @@ def test_a_decaying_start_is_no_peak(coarse_rom, order):
     assert told(runs, coarse_rom) == [] and runs["free"].mean() > 0.8
 
 
+@pytest.mark.parametrize("rounds", [4, 5, 10, 13])
+def test_a_line_lasts_that_falls_by_less_than_half_of_what_damping_takes(rounds):
+    """Along orders that the casing drives by less than nine tenths of it."""
+    turns, driven = 2 * np.pi * np.arange(rounds * SAMPLES) / SAMPLES, np.arange(1, 17) % 2 == 0
+    for k, last in ((7, 0.5), (8, 0.9)):
+        for share in (last - 0.1, last + 0.1):
+            free = np.exp(-ZETA * k * turns)
+            signal = (1 - share + share * free) * np.cos(k * turns)
+            found = lines(signal[:, None], rounds, ZETA, driven).along[0, k - 1]
+            assert bool(found > 0) is (share < last)
+
+
 def test_along_an_order_that_the_casing_drives_a_rub_that_ends_is_a_peak(coarse_rom):
     at = 1.05 * crossing(coarse_rom, 6)
 

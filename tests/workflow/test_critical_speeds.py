@@ -17,7 +17,8 @@ from simulate.errors.model_errors import ModelError
 from simulate.sweeps.crossings import critical
 from simulate.sweeps.peak_results import of_sweep, results
 from workflow import margins, summary
-from workflow.explore.results import facts
+from workflow.explore.results import arrays, facts
+from workflow.figures import spectra
 from workflow.figures.response import Response
 
 CASE = {
@@ -136,6 +137,16 @@ def test_none_says_where_was_looked(coarse_rom, operating):
     assert [*margins.met(alone)] == [
         f"Linear crossings: none of mode 1 with EO 1 from 0 to {top:.0f} rpm."
     ]
+
+
+def test_of_a_casing_of_many_lobes_the_page_has_the_orders_that_the_spectrum_holds(coarse_rom):
+    """64 samples hold 31 orders; side bands of 20 lobes are 40."""
+    many = [{"order": 20, "amplitude_gaps": 1.2}, {"order": 40, "amplitude_gaps": 0.1}]
+    case = scene(**CASE | {"integrator": of_steps(2560)}, casing__harmonics=many)
+    response = Response(swept(case, coarse_rom).assign_attrs(name="rub"), coarse_rom)
+    assert response.orders == [*ORDERS, 20]
+    assert arrays(response)["along"].shape == (2, 17)
+    spectra.over_speeds(response)
 
 
 def test_tables_rank_excited_orders_first_and_few_of_the_others(told):

@@ -29,7 +29,7 @@ def with_files(swept):
 def test_the_first_page_shows_what_the_terminal_prints_of_the_first_scene(project):
     shown = printed(read_json(project.folder / "results/summary.json"))
     assert shown.startswith("```\npaper-e1: blade paper") and "paper-e10" not in shown
-    assert re.search(r"^EO +rpm ", shown, re.MULTILINE)
+    assert re.search(r"^EO +mode +rpm ", shown, re.MULTILINE)
 
 
 def test_the_page_has_over_a_dozen_recipes():

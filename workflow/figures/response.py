@@ -89,11 +89,15 @@ class Response:
 
     @property
     def orders(self) -> list[int]:
-        """Engine orders of which peaks are sought, those of the casing and of its side bands."""
-        sought = np.atleast_1d(
-            self.sweep.attrs.get("orders", ORDERS)
-        )  # of one, files have a number
-        return sorted({*map(int, sought), *self.scene.casing.excites})
+        """Engine orders of which peaks are sought, those of the casing and of its side bands.
+
+        As far as the spectrum holds them.
+        """
+        sought = self.sweep.attrs.get("orders", ORDERS)  # of one, files have a number
+        orders, end = {*map(int, np.atleast_1d(sought)), *self.scene.casing.excites}, np.inf
+        if "spectrum" in self.sweep:
+            end = self.sweep["spectrum"].shape[1] // self.scene.record.rounds_of_spectrum
+        return sorted(k for k in orders if k < end)
 
     def of_f1(self, k: int) -> Peak | None:
         """Largest response along an engine order near its crossing with f1, reported or not."""

@@ -175,7 +175,8 @@ def _looks(response: Response, printed: str | None) -> dict[int, tuple[Any, str]
     peaks = sorted(response.peaks, key=lambda peak: -peak.amplitude)
     of_peaks = [peak.k for peak in peaks if peak.k % 1 == 0]
     of_paper = CRITICAL[printed] if printed else ()
-    orders = dict.fromkeys([*of_paper, *of_peaks, *sorted(response.scene.casing.orders)])
+    of_casing = [k for k in response.orders if k in response.scene.casing.orders]
+    orders = dict.fromkeys([*of_paper, *of_peaks, *of_casing])
     return dict(sorted(zip(orders, LOOKS, strict=False)))
 
 
