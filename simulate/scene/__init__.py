@@ -1,7 +1,6 @@
 """Input of a user: scenes, their tables and designs, the laws of the liner."""
 
 from simulate.scene.casing import (
-    HIGHEST_ORDER,
     LEADING,
     TRAILING,
     Casing,
@@ -29,7 +28,6 @@ from simulate.scene.speeds import OF_RPM, OVER_F1, RAD_S, Speeds
 __all__ = [
     "DYING_OUT",
     "GROWING",
-    "HIGHEST_ORDER",
     "LEADING",
     "OF_LAST_ROUNDS",
     "OF_RPM",
