@@ -10,19 +10,25 @@ of the half-ranges is too small, there by the factor sqrt(3). The largest change
 and is the same in all axes.
 
 Several frequencies make cycles of several sizes: all are counted as the largest, on the safe side.
+With a slope of the S-N line they are counted each (``damage``).
 """
 
-from math import sqrt
+from collections.abc import Mapping
+from math import inf, sqrt
+from typing import Any
 
 import numpy as np
+import rainflow
 from numpy.linalg import norm
 from numpy.typing import NDArray
 
 from geometry.blade import Fatigue
+from geometry.project import known
 
 MEGA = 1e6
 TURNS = 3  # from an instant to the farthest one
 LEAST = 1.0  # Pa, the alternating stress of a blade at rest
+ENDURED = 1e7  # cycles of the endurance
 # The von Mises stress sqrt(3/2 s : s), s the deviator, is the length of these five components of
 # (xx, yy, zz, xy, yz, xz).
 FIVE = sqrt(3) * np.array(
@@ -38,7 +44,7 @@ FIVE = sqrt(3) * np.array(
 
 def von_mises(sigma: NDArray[np.float64]) -> NDArray[np.float64]:
     """Von Mises stress (...) of ``sigma`` (..., 6): xx, yy, zz, xy, yz, xz."""
-    return norm(sigma @ FIVE.T, axis=-1)
+    return norm(sigma @ FIVE.T.astype(sigma.dtype), axis=-1)
 
 
 def largest_cycle(
@@ -46,12 +52,28 @@ def largest_cycle(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Mean stress, with its sign, and alternating stress (nodes,) of ``sigma`` (times, nodes, 6).
 
-    From five instants, at which one of the components of ``FIVE`` is largest, each goes on to that
-    farthest from it, and so on. On a line or an ellipse no change is larger than that found; of
-    motions of five frequencies less than one node in 100 has one that is larger, by 2 % at most
-    (``tests/fem/test_fatigue.py``).
+    Of the two instants of ``largest_change``.
     """
-    five = np.ascontiguousarray((sigma @ FIVE.T).transpose(1, 2, 0))  # times last, for speed
+    five = np.ascontiguousarray((sigma @ FIVE.T).transpose(1, 2, 0))
+    return mean_and_half(*np.take_along_axis(sigma, largest_change(five)[..., None], axis=0))
+
+
+def mean_and_half(
+    one: NDArray[np.float64], other: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Mean stress, with its sign, and alternating stress (nodes,) of two tensors (nodes, 6)."""
+    mean = (one + other) / 2
+    return np.copysign(von_mises(mean), mean[:, :3].sum(axis=1)), von_mises((one - other) / 2)
+
+
+def largest_change(five: NDArray[np.float64]) -> NDArray[np.int64]:
+    """The two instants (2, nodes) of the largest change of a stress.
+
+    ``five`` (nodes, 5, times): its components of ``FIVE``. From five instants, at which one of them
+    is largest, each goes on to that farthest from it, and so on. On a line or an ellipse no change
+    is larger than that found; of motions of five frequencies less than one node in 100 has one that
+    is larger, by 2 % at most (``tests/fem/test_fatigue.py``).
+    """
     square, nodes = (five**2).sum(axis=1), np.arange(len(five))[:, None]
     at = five.swapaxes(1, 2)
     one = five.argmax(axis=2)
@@ -60,10 +82,34 @@ def largest_cycle(
         one, other = away.argmax(axis=2), one
     change = norm(at[nodes, one] - at[nodes, other], axis=-1)
     best = nodes[:, 0], change.argmax(axis=1)
-    one, other = one[best], other[best]
-    ends = sigma[one, best[0]], sigma[other, best[0]]
-    mean, half = (ends[0] + ends[1]) / 2, (ends[0] - ends[1]) / 2
-    return np.copysign(von_mises(mean), mean[:, :3].sum(axis=1)), von_mises(half)
+    return np.stack([one[best], other[best]])
+
+
+def uniaxial(sigma: NDArray[np.float64]) -> NDArray[np.float64]:
+    """A stress with a sign over time (times,), Pa, of ``sigma`` (times, 6) of one node.
+
+    The part of the five components along their largest change, whose range is so twice the
+    alternating stress; tension is positive. It is moved by a constant to the mean stress midway.
+    """
+    five = sigma @ FIVE.T
+    ends = largest_change(five.T[None])[:, 0]
+    half, (mean, _) = np.diff(sigma[ends], axis=0)[0] / 2, mean_and_half(*sigma[ends][:, None])
+    along = FIVE @ half * np.copysign(1 / max(von_mises(half), LEAST), half[:3].sum())
+    signal = five @ along
+    return signal - signal[ends].mean() + mean
+
+
+def damage(signal: NDArray[np.float64], fatigue: Fatigue) -> float:
+    """Miner's damage of a ``signal`` (times,), Pa, as of ``uniaxial``; it cracks at 1.
+
+    By rainflow (ASTM E1049), a half cycle as half of one. A cycle of amplitude S and mean m takes
+    1/N, N = ``ENDURED`` (S_a(m)/S)^k, S_a the line of ``allowed`` and k ``slope_k``: one slope,
+    also below the endurance (elementary rule of Miner).
+    """
+    cycles = ((span / 2, mean, n) for span, mean, n, *_ in rainflow.extract_cycles(signal) if span)
+    S, mean, counts = np.array([*cycles]).reshape(-1, 3).T
+    ratio = np.divide(S, limit := allowed(mean, fatigue), out=np.full_like(S, inf), where=limit > 0)
+    return float((counts * ratio ** known(fatigue.slope_k, "slope_k")).sum() / ENDURED)
 
 
 def allowed(mean: NDArray[np.float64], fatigue: Fatigue) -> NDArray[np.float64]:
@@ -89,3 +135,14 @@ def margin(
 ) -> NDArray[np.float64]:
     """Factor by which the alternating stress may grow at this mean stress; below 1 it cracks."""
     return allowed(mean, fatigue) / np.maximum(alternating, LEAST)
+
+
+def numbers(mean: Any, alternating: Any, fatigue: Fatigue | None) -> dict[str, Any]:
+    """Stresses, Pa, and their margin where there is a strength, by name."""
+    left = {"margin": margin(mean, alternating, fatigue)} if fatigue else {}
+    return {"mean_stress": mean, "alternating": alternating, **left}
+
+
+def reserve(numbers: Mapping[str, Any]) -> Any:
+    """What is least where a motion is worst: the margin, else the alternating stress, negative."""
+    return numbers.get("margin", -numbers["alternating"])

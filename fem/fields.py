@@ -6,7 +6,7 @@ stress e . sigma e, of the fields averaged at nodes, quadratic on each facet. Wi
 prestress E and e are those of the blade at rest, on which gauges are bonded.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -16,6 +16,7 @@ from fem.petsc import MPI  # noqa: F401  ahead of DOLFINx
 import numpy as np
 import pyvista as pv
 from numpy.typing import NDArray
+from scipy.sparse import csr_matrix
 from scipy.spatial import cKDTree
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
@@ -65,7 +66,12 @@ def stress(solid: Solid, u: NDArray[np.float64], prestress: str) -> Stress:
     are not in K(Omega).
     """
     tensors = _strain_and_stress(solid, solid.field(u), prestress)
-    strain, sigma = (_averaged(solid, _expression(solid, tensor)) for tensor in tensors)
+    cells = np.arange(len(solid.V.dofmap.list))
+    average = _average(solid, cells)
+    strain, sigma = (
+        _averaged(average, _at_nodes(solid, _expression(solid, tensor), cells))
+        for tensor in tensors
+    )
     return Stress(strain, sigma)
 
 
@@ -75,30 +81,75 @@ def linearised(
     along: NDArray[np.float64],
     prestress: str,
     nodes: NDArray[np.int64] | None = None,
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    *,
+    strain: bool = True,
+) -> NDArray[np.float64]:
     """Strain and stress about displacements ``u`` (free DoFs), m: their values and derivatives.
 
     Parameters
     ----------
     along : (k, free DoFs), displacements in whose directions the derivatives are taken
     nodes : those of the result; all if not given
+    strain : whether it is wanted, or stress alone
 
     Returns
     -------
-    strain, stress : (1 + k, nodes, 6), 1 and Pa, those of ``u``, then those per unit of each of
-        ``along``; in the order of ``TENSOR``, averaged at nodes as in ``Stress``
+    strain, stress : (2 or 1, 1 + k, nodes, 6), 1 and Pa, those of ``u``, then those per unit of
+        each of ``along``; in the order of ``TENSOR``, averaged at nodes as in ``Stress``
     """
     nodes = np.arange(len(solid.V.tabulate_dof_coordinates())) if nodes is None else nodes
-    cells = np.flatnonzero(np.isin(solid.V.dofmap.list, nodes).any(axis=1))
+    cells = cells_of(solid, nodes)
+    rows, average = _rows(solid, u, along, prestress, cells, strain), _average(solid, cells)[nodes]
+    averaged = [[_averaged(average, tensor) for tensor in row] for row in rows]
+    return np.array(averaged)[..., *TENSOR].swapaxes(0, 1)
+
+
+def disagreement(
+    solid: Solid, u: NDArray[np.float64], along: NDArray[np.float64], prestress: str, node: int
+) -> NDArray[np.float64]:
+    """Von Mises stress (1 + k,), Pa, by which the cells of a node differ from their mean.
+
+    Root mean square over the cells, the largest of the node and those ``around`` it; of the stress
+    of ``u``, then of that per unit of each of ``along``, as of ``linearised``. The exact stress is
+    continuous: this is a measure of the error of the mesh there (Zienkiewicz and Zhu, Int. J.
+    Numer. Meth. Engng. 24, 1987).
+    """
+    nodes = around(solid, node)
+    cells = cells_of(solid, nodes)
+    of_cells, average = solid.V.dofmap.list[cells], _average(solid, cells)
+    found = []
+    for (sigma,) in _rows(solid, u, along, prestress, cells, strain=False):
+        off = sigma - _averaged(average, sigma)[of_cells]
+        found.append(np.sqrt((average[nodes] @ von_mises(off[..., *TENSOR]).ravel() ** 2).max()))
+    return np.array(found)
+
+
+def around(solid: Solid, node: int) -> NDArray[np.int64]:
+    """A node, and all others of its cells."""
+    return np.unique(solid.V.dofmap.list[cells_of(solid, np.array([node]))])
+
+
+def cells_of(solid: Solid, nodes: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Cells that have any of the ``nodes``."""
+    return np.flatnonzero(np.isin(solid.V.dofmap.list, nodes).any(axis=1))
+
+
+def _rows(
+    solid: Solid,
+    u: NDArray[np.float64],
+    along: NDArray[np.float64],
+    prestress: str,
+    cells: NDArray[np.int64],
+    strain: bool,
+) -> Iterator[list[NDArray[np.float64]]]:
+    """Strain and stress at the nodes of ``cells`` (cells, 10, 3, 3): of ``u``, then per unit."""
     deflected, v = solid.field(u), fem.Function(solid.V)
-    tensors = _strain_and_stress(solid, deflected, prestress)
+    tensors = _strain_and_stress(solid, deflected, prestress)[0 if strain else 1 :]
     rates = [_expression(solid, ufl.derivative(tensor, deflected, v)) for tensor in tensors]
-    values, results = [_expression(solid, tensor) for tensor in tensors], []
+    values = [_expression(solid, tensor) for tensor in tensors]
     for row, direction in zip([values] + [rates] * len(along), [0.0, *along], strict=True):
         v.x.array[solid.free] = direction
-        results.append([_averaged(solid, tensor, cells)[nodes] for tensor in row])
-    strain, sigma = np.array(results)[..., *TENSOR].swapaxes(0, 1)
-    return strain, sigma
+        yield [_at_nodes(solid, tensor, cells) for tensor in row]
 
 
 def _strain_and_stress(
@@ -116,16 +167,23 @@ def _expression(solid: Solid, tensor: ufl.core.expr.Expr) -> fem.Expression:
     return fem.Expression(tensor, solid.V.element.interpolation_points)
 
 
-def _averaged(
-    solid: Solid, expression: fem.Expression, cells: NDArray[np.int64] | None = None
+def _at_nodes(
+    solid: Solid, expression: fem.Expression, cells: NDArray[np.int64]
 ) -> NDArray[np.float64]:
-    """Mean of a tensor over all cells, or ``cells``, at each of their nodes (nodes, 3, 3)."""
-    cells = np.arange(len(solid.V.dofmap.list)) if cells is None else cells
-    nodes = solid.V.dofmap.list[cells]
-    total = np.zeros((nodes.max() + 1, 3, 3))
-    at_nodes = expression.eval(solid.mesh, cells.astype(np.int32))
-    np.add.at(total, nodes, at_nodes.reshape(*nodes.shape, 3, 3))
-    return total / np.maximum(np.bincount(nodes.ravel()), 1)[:, None, None]
+    """A tensor in ``cells`` at each of their nodes (cells, 10, 3, 3)."""
+    return expression.eval(solid.mesh, cells.astype(np.int32)).reshape(len(cells), -1, 3, 3)
+
+
+def _average(solid: Solid, cells: NDArray[np.int64]) -> csr_matrix:
+    """Mean over ``cells`` at each node (nodes, 10 cells) of values at theirs; 0 at all others."""
+    nodes, of_all = solid.V.dofmap.list[cells].ravel(), int(solid.V.dofmap.list.max()) + 1
+    share = 1 / np.bincount(nodes, minlength=of_all)[nodes]
+    return csr_matrix((share, (nodes, np.arange(len(nodes)))), (of_all, len(nodes)))
+
+
+def _averaged(average: csr_matrix, tensor: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Mean (nodes, 3, 3) of a tensor as of ``_at_nodes``."""
+    return (average @ tensor.reshape(-1, 9)).reshape(-1, 3, 3)
 
 
 @dataclass(frozen=True)

@@ -63,13 +63,20 @@ class Solid:
         field.x.array[self.free] = u
         return field
 
+    @property
+    def clamped(self) -> NDArray[np.bool_]:
+        """Whether a node is clamped (nodes,)."""
+        clamped = np.ones(len(self.V.tabulate_dof_coordinates()), bool)
+        clamped[self.free[::3] // 3] = False
+        return clamped
+
     def free_coordinates(self) -> NDArray[np.float64]:
         """Free nodes (n_full / 3, 3), m."""
         return self.V.tabulate_dof_coordinates()[self.free[::3] // 3]
 
     def clamped_coordinates(self) -> NDArray[np.float64]:
         """Clamped nodes (n, 3), m."""
-        return np.delete(self.V.tabulate_dof_coordinates(), self.free[::3] // 3, axis=0)
+        return self.V.tabulate_dof_coordinates()[self.clamped]
 
 
 class SymmetricForm:

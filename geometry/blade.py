@@ -305,6 +305,13 @@ class Fatigue(Settings):
     line: Literal["goodman", "gerber", "soderberg"] = Field(
         default="goodman", description="How a tensile mean stress lowers the endurance"
     )
+    slope_k: float | None = Field(
+        default=None,
+        ge=1,
+        le=30,
+        description="Slope k of the S-N line, N ~ S^-k, through the endurance at 1e7 cycles: adds "
+        "Miner's damage of the runs at the peaks",
+    )
 
     @checked
     def _in_order(self) -> None:
@@ -316,6 +323,21 @@ class Fatigue(Settings):
                 value=self.yield_MPa,
                 allowed={"ge": self.endurance_MPa, "le": self.ultimate_MPa},
             )
+
+
+class Stress(Settings):
+    """Where the stress of a rub is read, away from the clamp."""
+
+    root: Literal["sharp", "fillet"] = Field(
+        default="sharp",
+        description="sharp: the nominal stress of the airfoil, for at a sharp clamp the local one "
+        "has no limit; fillet: the local stress of a mesh with its fillet",
+    )
+    away_mm: Length | None = Field(
+        default=None,
+        description="Least distance from the clamp (mm); without it one thickness of the airfoil "
+        "at the clamp, or with `fillet` beyond the elements that touch the clamp",
+    )
 
 
 TOP_SPEEDS = ("max_speed_rad_s", "max_speed_rpm")
@@ -338,6 +360,7 @@ class Blade(SettingsFile):
     fatigue: Fatigue | None = Field(
         default=None, description="Strength against which the stresses of a rub are compared"
     )
+    stress: Stress = Field(default=Stress(), description="Where the stress of a rub is read")
     interface: Interface = Field(default=Interface(), description="Interface with the casing")
     max_speed_rad_s: Annotated[float, Field(gt=0)] | None = Field(
         default=None, description="Omega_m, the highest speed of the reduced model (rad/s)"

@@ -128,7 +128,7 @@ def speed(row: Speed) -> str:
     """A critical speed, rpm, with its uncertainty; one at an end of a sweep has none."""
     error = row["rpm_error"]
     if row["bound"] or not error:
-        return f"{row['rpm']:.0f}{' (end)' * row['bound']}"
+        return f"{row['rpm']:.0f}{' (end: rises further)' * row['bound']}"
     bound = ("≥" if row["least"] else "±") + markdown.two_digits(error)
     return f"{row['rpm']:.0f} {bound if isfinite(error) else markdown.NOT_KNOWN}"
 

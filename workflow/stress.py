@@ -1,6 +1,13 @@
-"""Stress of a rub at the nodes of the blade, from a few shapes of its motion, and its margin."""
+"""Stress of a rub at the nodes of the blade, from a few shapes of its motion, and its margin.
 
+Of each run the revolutions are taken that its sweep keeps, each by itself: the last one, and those
+that strain the blade most. Told is the worst, at the worst node of the airfoil (``fem.airfoil``).
+"""
+
+from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
+from math import ceil
 from typing import Any
 
 from fem.petsc import MPI  # noqa: F401  ahead of DOLFINx
@@ -9,18 +16,22 @@ import numpy as np
 from numpy.linalg import norm
 from numpy.typing import NDArray
 
-from fem.fatigue import largest_cycle, margin, von_mises
-from fem.fields import away, dofs_at, grid_of, linearised, save_vtu
+from fem.airfoil import airfoil, thickness
+from fem.fatigue import ENDURED, FIVE, largest_change, numbers, reserve
+from fem.fields import around, away, disagreement, dofs_at, grid_of, save_vtu
+from fem.node_stress import NodeStress
 from fem.solid import Solid, read_solid
-from geometry.blade import RPM, Blade, Fatigue
+from fem.worst_node import cycles, worst
+from geometry.blade import RPM, Blade
 from geometry.frame import to_file
 from rom.model import Rom
-from rom.polynomial import evaluate, interpolate
+from rom.polynomial import evaluate
 from rom.reconstruct import Basis
+from simulate.errors.stressed import with_rotation
 from simulate.marching import WITH_RESULT
-from simulate.scene import GROWING
 from simulate.sweeps.dataset import Sweep, origin
 from simulate.sweeps.peak_results import asked
+from workflow.shapes import Shapes, motion, stresses
 
 SHAPES = 12  # of the motion at all speeds
 LABELS = {
@@ -28,147 +39,231 @@ LABELS = {
     "alternating": "alternating stress (Pa)",
     "margin": "margin",
 }
-SPEEDS = 3  # at which stress is computed; polynomials in Omega^2 between them
-BLOCK = 128  # nodes at a time
+CLAMP, CONTACT = "the clamp", "the contact"  # ends of the airfoil
+NONE = np.finfo(float).tiny  # of a number that is zero
+AGREE = 0.05  # largest error of the mesh of a stress that is told nearer to a sharp clamp
+
+type Revolutions = Mapping[int, NDArray[np.float64]]  # by number, from 1
 
 
 def write(
     blade: Blade, mesh: str, rom: Rom, basis: str, sweep: Sweep, names: dict[str, str], vtu: str
 ) -> dict[str, Any]:
-    """Write the fields at the reported peaks; return the worst node at every speed.
+    """Write the fields at the told speeds; return the worst node at every speed.
 
-    Its place is in the axes and unit of the blade's file; ``missed`` is the share of the motion
-    that the shapes leave out, in the norm of the strain energy. A motion that still grows has no
-    mean and no amplitude yet, and no stresses in its row.
+    ``missed`` is the share of the motion that the shapes leave out, in the norm of the strain
+    energy. Told are the speeds of the peaks and the worst of all: there it is known what the
+    numbers are worth.
     """
-    full_basis = Basis.load(basis, origin(sweep))
-    solid, fatigue = read_solid(mesh, blade.material), blade.fatigue
-    moved = motion(sweep, rom.stiffness(rom.Omega_m / 2), SHAPES)
-    sigma = stresses(solid, full_basis, moved.shapes, blade.prestress)
-    settled, (cells, points) = away(solid), grid_of(solid)
-    nodes, fields = np.flatnonzero(settled), {"away from clamp and contact": settled.astype(float)}
-    away_from, peaks, rows = sigma[:, :, nodes], {peak.index for peak in asked(sweep, rom)}, []
-    columns = (sweep[name].values.tolist() for name in ("speed", "speed_over_f1", "trend"))
-    for speed, (missed, Omega, over_f1, trend) in enumerate(
-        zip(moved.missed, *columns, strict=True)
-    ):
-        rows.append({"speed_over_f1": over_f1, "trend": trend, "missed": float(missed)})
-        part, a = Omega / full_basis.Omega_m, moved.with_rotation(speed)
-        if trend == GROWING or len(a) == 0:
-            continue
-        node, stresses_there = worst(evaluate(away_from, part), a, fatigue)
-        rows[-1] |= {
-            **stresses_there,
-            "at": to_file(points[nodes[node]], blade.drawn).tolist(),
-            "unit": blade.drawn.unit,
-        }
-        if speed in peaks:
-            everywhere = numbers(*cycles(evaluate(sigma, part), a), fatigue)
-            fields |= {
-                f"{LABELS[label]}, {RPM * Omega:.0f} rpm": everywhere[label] for label in everywhere
-            }
+    kept, full_basis = revolutions(sweep), Basis.load(basis, origin(sweep))
+    states = [np.concatenate([*of.values()]) if of else np.empty((0, rom.n)) for of in kept]
+    shapes = motion(states, rom.stiffness(rom.Omega_m / 2), SHAPES)
+    solid = read_solid(mesh, blade.material)
+    sigma = stresses(solid, full_basis, shapes.shapes, blade.prestress)
+    stressed = Stressed(blade, solid, full_basis, shapes, sigma)
+    columns = (
+        sweep[name].values.tolist() for name in ("speed_over_f1", "speed", "trend", "rounds")
+    )
+    rows, found = [], {}
+    for speed, (over_f1, Omega, trend, rounds) in enumerate(zip(*columns, strict=True)):
+        told = {"speed_over_f1": over_f1, "rpm": RPM * Omega, "trend": trend}
+        rows.append(told | {"missed": float(shapes.missed[speed])})
+        if kept[speed]:
+            a = {n: with_rotation(u @ shapes.onto) for n, u in kept[speed].items()}
+            found[speed] = at = stressed.worst(Omega, a)
+            rows[-1] |= stressed.numbers(at) | {"revolution": at.number}
+            if blade.fatigue:
+                last = recorded(sweep["motion"].values[speed])
+                k = at.stress.order(with_rotation(last @ shapes.onto))
+                seconds = 2 * np.pi * ENDURED / (k * Omega)
+                rows[-1] |= {"cycles": k * ceil(rounds), "endurance_s": seconds}
+    most = min(found, key=lambda speed: reserve(rows[speed]), default=None)
+    fields = {"away from clamp and contact": stressed.airfoil[0].astype(float)}
+    for speed in sorted({*(peak.index for peak in asked(sweep, rom)), most} & found.keys()):
+        rows[speed] |= stressed.around(found[speed])
+        rpm, everywhere = f"{rows[speed]['rpm']:.0f} rpm", stressed.everywhere(found[speed])
+        fields |= {f"{LABELS[label]}, {rpm}": everywhere[label] for label in everywhere}
+    cells, points = grid_of(solid)
     save_vtu(points, cells, fields, vtu)
     return {
         **names,
-        "fatigue": fatigue and fatigue.model_dump(mode="json"),
+        **stressed.read,
+        "fatigue": blade.fatigue and blade.fatigue.model_dump(mode="json", exclude_none=True),
+        "worst": None if most is None else rows[most]["speed_over_f1"],
         "speeds": rows,
     }
 
 
+def revolutions(sweep: Sweep) -> list[Revolutions]:
+    """Reduced displacements (times, n) of the revolutions kept of each run; none without a result.
+
+    Those that strain the blade most, at some instants, and where it is none of them the last.
+    """
+    names = ("status", "rounds", "motion", "strained_round", "strained")
+    runs = []
+    for status, rounds, of_last, which, strained in zip(
+        *(sweep[name].values for name in names), strict=True
+    ):
+        kept = {ceil(rounds): of_last} | dict(
+            zip(which.astype(int).tolist(), strained, strict=True)
+        )
+        with_result = kept.items() if status in WITH_RESULT else ()
+        known = {n: recorded(u) for n, u in with_result if n}
+        runs.append({n: u for n, u in known.items() if len(u)})
+    return runs
+
+
+def recorded(u: NDArray[np.float32]) -> NDArray[np.float64]:
+    """Those of states (times, n) that are recorded."""
+    return u[~np.isnan(u).any(axis=1)].astype(float)
+
+
 @dataclass(frozen=True)
-class Decomposition:
-    """Displacement at speed i and time t: sum of a[i, t] over the shapes."""
+class Found:
+    """A node in one of the revolutions of a run, which are kept beside it."""
 
-    shapes: NDArray[np.float64]  # (n, shapes), reduced coordinates
-    a: NDArray[np.float64]  # (speeds, times, shapes); nan where no state was recorded
-    missed: NDArray[np.float64]  # (speeds,), rms norm of what is missed over the whole
+    Omega: float  # rad/s
+    node: int
+    number: int  # of the revolution
+    revolutions: Revolutions  # amplitudes (times, 1 + shapes), the first 1, of rotation
+    stress: NodeStress
 
-    def with_rotation(self, speed: int) -> NDArray[np.float64]:
-        """Amplitudes (times, 1 + shapes) of the states recorded at a speed: 1, then the shapes'."""
-        a = self.a[speed][~np.isnan(self.a[speed]).any(axis=1)]
-        return np.hstack([np.ones((len(a), 1)), a])
-
-
-def motion(sweep: Sweep, G: NDArray[np.float64], shapes: int) -> Decomposition:
-    """Proper orthogonal decomposition of ``sweep.motion`` with the norm (u^T G u)^(1/2).
-
-    With G = M the first shapes hold the displacement, with G = K the strain energy, and so the
-    stress, of which shapes that hold the displacement may miss a part.
-
-    Each speed counts alike, whatever its amplitude. Source: Sirovich, Quarterly of Applied
-    Mathematics 45 (1987), with the snapshots in reduced coordinates.
-    """
-    states = sweep["motion"].values.astype(float)
-    states = np.where(np.isin(sweep["status"], WITH_RESULT)[:, None, None], states, np.nan)
-    L = np.linalg.cholesky(G)
-    there = [state[~np.isnan(state).any(axis=1)] @ L for state in states]
-    weighted = [y / norm(y) for y in there if np.any(y)]
-    _, _, V = np.linalg.svd(sum(y.T @ y for y in weighted) if weighted else np.eye(len(G)))
-    first = V[:shapes].T
-    outside = [y - y @ first @ first.T for y in there]
-    missed = [
-        norm(out) / norm(y) if np.any(y) else 0 for out, y in zip(outside, there, strict=True)
-    ]
-    return Decomposition(np.linalg.solve(L.T, first), states @ L @ first, np.array(missed, float))
+    @property
+    def a(self) -> NDArray[np.float64]:
+        """Amplitudes (times, 1 + shapes) of its revolution."""
+        return self.revolutions[self.number]
 
 
-def stresses(
-    solid: Solid, basis: Basis, shapes: NDArray[np.float64], prestress: str
-) -> NDArray[np.float64]:
-    """Stress (powers, 1 + shapes, nodes, 6), Pa: of rotation, then of a unit of each shape.
+@dataclass(frozen=True)
+class Stressed:
+    """The blade, and the stress of rotation and of the shapes of its motion at all nodes."""
 
-    Polynomials in (Omega / Omega_m)^2; ``shapes`` (n, shapes) in reduced coordinates; components in
-    the order of ``fem.fields.TENSOR``.
-    """
-    order = dofs_at(basis.coordinates, solid.free_coordinates()).ravel()
-    along = (basis.T @ shapes).T[:, order]
-    speeds = np.sqrt((1 - np.cos(np.pi * np.arange(SPEEDS) / (SPEEDS - 1))) / 2)
-    static = (basis.static(part * basis.Omega_m)[order] for part in speeds)
-    each_speed = [linearised(solid, u, along, prestress)[1] for u in static]
-    return interpolate(np.array(each_speed), speeds)
+    blade: Blade
+    solid: Solid
+    basis: Basis
+    shapes: Shapes
+    sigma: NDArray[np.float64]  # as of ``stresses``
 
+    @cached_property
+    def points(self) -> NDArray[np.float64]:
+        """Nodes (nodes, 3), m."""
+        return self.solid.V.tabulate_dof_coordinates()
 
-def cycles(
-    sigma: NDArray[np.float64], a: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Mean and alternating stress (nodes,), Pa, of the motion a (times, 1 + shapes).
+    @cached_property
+    def order(self) -> NDArray[np.int64]:
+        """Of the free DoFs in those of the basis."""
+        return dofs_at(self.basis.coordinates, self.solid.free_coordinates()).ravel()
 
-    ``sigma`` (1 + shapes, nodes, 6): as of ``stresses`` at one speed; of rotation a is 1.
-    """
-    blocks = np.split(sigma, range(BLOCK, sigma.shape[1], BLOCK), axis=1)
-    by_block = [largest_cycle(np.tensordot(a, block, 1)) for block in blocks]
-    mean, alternating = map(np.concatenate, zip(*by_block, strict=True))
-    return mean, alternating
+    @cached_property
+    def near_clamp(self) -> NDArray[np.int64]:
+        """Nodes between half the distance from the clamp and those whose stress is read."""
+        inside, distance = self.airfoil
+        return np.flatnonzero(away(self.solid, distance / 2) & ~inside)
 
+    @cached_property
+    def airfoil(self) -> tuple[NDArray[np.bool_], float]:
+        """Nodes whose stress is read, and their least distance from the clamp, m."""
+        return airfoil(self.solid, self.blade.stress)
 
-def worst(
-    sigma: NDArray[np.float64], a: NDArray[np.float64], fatigue: Fatigue | None
-) -> tuple[int, dict[str, float]]:
-    """The node of least margin, or without strength of largest alternating stress; its numbers.
+    @cached_property
+    def five(self) -> NDArray[np.float32]:
+        """Components (powers, 1 + shapes, nodes, 5) of these nodes, for bounds."""
+        return (self.sigma[:, :, self.airfoil[0]] @ FIVE.T).astype(np.float32)
 
-    Nodes are searched by bounds of their stresses: the von Mises stress is a seminorm, so that mean
-    and alternating stress are at most those of rotation and of each shape by itself, added. Those
-    whose bounds leave less margin than the worst of a first few are computed. Arguments as of
-    ``cycles``.
-    """
-    turn = np.linalg.eigh(np.cov(a.T, bias=True))[1].T
-    a, sigma = a @ turn.T, np.tensordot(turn, sigma, 1)  # in its own directions: close bounds
-    each = von_mises(sigma)
-    bound = _reserve(numbers(np.abs(a).max(axis=0) @ each, np.ptp(a, axis=0) / 2 @ each, fatigue))
-    first = np.argsort(bound)[:BLOCK]
-    least = _reserve(numbers(*cycles(sigma[:, first], a), fatigue)).min()
-    nodes = np.union1d(first, np.flatnonzero(bound < least))
-    exact = numbers(*cycles(sigma[:, nodes], a), fatigue)
-    best = _reserve(exact).argmin()
-    return nodes[best], {name: float(values[best]) for name, values in exact.items()}
+    def at(self, Omega: float, nodes: Any = slice(None)) -> NDArray[np.float64]:
+        """Stress (1 + shapes, ..., 6), Pa, at a speed at ``nodes``."""
+        return evaluate(self.sigma[:, :, nodes], Omega / self.basis.Omega_m)
 
+    def worst(self, Omega: float, revolutions: Revolutions) -> Found:
+        """The worst node of the airfoil at a speed, rad/s, and its revolution."""
+        powers = (Omega / self.basis.Omega_m) ** (2.0 * np.arange(len(self.five)))
+        five = np.tensordot(powers.astype(np.float32), self.five, 1)
+        of, nodes = [*revolutions.values()], np.flatnonzero(self.airfoil[0])
+        node, which = worst(five, lambda few: self.at(Omega, nodes[few]), of, self.blade.fatigue)
+        return self.found(Omega, nodes[node], [*revolutions][which], revolutions)
 
-def numbers(mean: Any, alternating: Any, fatigue: Fatigue | None) -> dict[str, Any]:
-    """Stresses, Pa, and their margin where there is a strength, by name."""
-    reserve = {"margin": margin(mean, alternating, fatigue)} if fatigue else {}
-    return {"mean_stress": mean, "alternating": alternating, **reserve}
+    def found(self, Omega: float, node: int, number: int, revolutions: Revolutions) -> Found:
+        """A node in a revolution."""
+        stress = NodeStress(self.at(Omega, node), self.blade.fatigue)
+        return Found(Omega, int(node), number, revolutions, stress)
 
+    def numbers(self, found: Found) -> dict[str, Any]:
+        """The numbers of a node, and its place: in axes and unit of the blade's file, and in m."""
+        at, drawn = self.points[found.node], self.blade.drawn
+        place = {"at": to_file(at, drawn).tolist(), "unit": drawn.unit, "at_m": at.tolist()}
+        return found.stress.numbers(found.a) | place
 
-def _reserve(numbers: dict[str, NDArray[np.float64]]) -> NDArray[np.float64]:
-    """What is least at the worst node."""
-    return numbers.get("margin", -numbers["alternating"])
+    def everywhere(
+        self, found: Found, nodes: Any = slice(None), precision: Any = np.float32
+    ) -> dict[str, NDArray[np.float64]]:
+        """The numbers of a revolution at all nodes, or some."""
+        sigma, a = (of.astype(precision) for of in (self.at(found.Omega, nodes), found.a))
+        return numbers(*cycles(sigma, a), self.blade.fatigue)
+
+    def around(self, found: Found) -> dict[str, Any]:
+        """What the numbers of a node are worth.
+
+        The end of the airfoil towards which they `rises` further, if any; by how much the node
+        `stands_out` of those around it; relative errors by the `mesh`; the alternating stress
+        `between` any two instants of all revolutions; its stress over the reduced displacements,
+        `sigma`, by which that of other runs is known; and the worst node `nearer` to a sharp clamp,
+        up to half the distance, where the mesh resolves it.
+        """
+        near = around(self.solid, found.node)
+        of_near = self.everywhere(found, near, float)
+        left, itself = reserve(of_near), near == found.node
+        radius = norm(self.points[near, :2], axis=1)
+        beyond = np.where(self.airfoil[0][near] | (left >= left[itself]), np.inf, left)
+        end = CLAMP if radius[beyond.argmin()] < radius[itself] else CONTACT
+        others = of_near["alternating"][~itself].max()
+        of_all = np.concatenate([*found.revolutions.values()])
+        sigma = found.stress.sigma
+        return {
+            "rises": end if np.isfinite(beyond).any() else "",
+            "stands_out": float(of_near["alternating"][itself].item() / others),
+            "mesh": self.mesh_errors(found),
+            "between": found.stress.numbers(of_all)["alternating"],
+            "sigma": np.vstack([sigma[:1], self.shapes.onto @ sigma[1:]]).tolist(),
+            **self.nearer(found),
+        }
+
+    def mesh_errors(self, found: Found) -> dict[str, float]:
+        """Relative errors by the mesh: by the ``disagreement`` of cells.
+
+        That of the margin is of both stresses, were they higher by theirs.
+        """
+        five = found.a @ found.stress.sigma @ FIVE.T
+        one, other = found.a[largest_change(five.T[None])[:, 0], 1:]
+        shapes = self.shapes.shapes @ np.stack([one + other, one - other], axis=1) / 2
+        u, along = self.basis.static(found.Omega)[self.order], (self.basis.T @ shapes)[self.order].T
+        off = disagreement(self.solid, u, along, self.blade.prestress, found.node)
+        own = found.stress.numbers(found.a)
+        mean, alternating = abs(own["mean_stress"]) + off[0] + off[1], own["alternating"] + off[2]
+        higher = numbers(mean, alternating, self.blade.fatigue)
+        return {
+            name: float(abs(value - abs(own[name])) / max(abs(own[name]), NONE))
+            for name, value in higher.items()
+        }
+
+    def nearer(self, found: Found) -> dict[str, Any]:
+        """The worst node up to half the thickness from a sharp clamp, if the mesh resolves it."""
+        if self.blade.stress.root != "sharp" or self.blade.stress.away_mm:
+            return {}
+        node = self.near_clamp[reserve(self.everywhere(found, self.near_clamp)).argmin()]
+        other = self.found(found.Omega, node, found.number, found.revolutions)
+        errors = self.mesh_errors(other)
+        agrees = errors["alternating"] <= AGREE
+        return {"nearer": self.numbers(other) | {"mesh": errors}} if agrees else {}
+
+    @property
+    def read(self) -> dict[str, Any]:
+        """Where stress is read, and the edges of the tip, m, in the blade's frame.
+
+        `too_near`: half the thickness, where it is read nearer to a sharp clamp.
+        """
+        root, distance = self.blade.stress.root, self.airfoil[1]
+        half = thickness(self.solid) / 2 if root == "sharp" else 0.0
+        tip = self.points[self.solid.tip.ravel()]
+        edges = {"LE": tip[tip[:, 2].argmin()].tolist(), "TE": tip[tip[:, 2].argmax()].tolist()}
+        too_near = half if distance < half else None
+        return {"root": root, "away_m": distance, "too_near": too_near, "edges": edges}

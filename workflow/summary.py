@@ -16,7 +16,7 @@ from simulate.errors.beyond_linear import BEYOND
 from simulate.errors.neighbour import CHAOTIC, ONE_MOTION, TWO_MOTIONS
 from simulate.scene import DYING_OUT, GROWING, TRENDS
 from simulate.sweeps.plain import NO_CROSSING, Course, numbers_of
-from workflow import margins, markdown
+from workflow import margins, markdown, stress_told
 from workflow.markdown import Number
 
 if TYPE_CHECKING:  # a slow import, which Snakemake does without
@@ -57,10 +57,12 @@ COLUMNS = (  # of the numbers of ``sweeps.peak_results``
     Column("mean_stress", "MPa", 1e-6, "mean stress MPa"),
     Column("alternating", "MPa", 1e-6, "alternating MPa"),
     Column("margin", "1", 1.0, "margin"),
+    Column("damage", "1", 1.0, "Miner's damage"),
+    Column("cycles", "1", 1.0, "cycles"),
+    Column("endurance_s", "s", 1.0, "s to 1e7"),
 )
 PLACES = dict(zip(JUDGED, ("", " at ξ = 15/16", " at ξ = 1/2"), strict=True))
 LOADS = {"opening", "force", "force_peak", "torque"}  # numbers of the second table
-STRESS = {"mean_stress", "alternating", "margin"}  # numbers of ``stress.json``, there too
 AT_END = ("at the end", "τ rev.", "mm³/rev.")  # heads
 MEANING = {  # of the columns
     "amplitude": "of the tip's radial displacement at ξ = 1/16, along the engine order EO, or of a "
@@ -83,12 +85,15 @@ MEANING = {  # of the columns
     "force": "mean normal force on the chord over the revolutions; peak force: the largest on an "
     "eighth of the chord",
     "torque": "mean of the revolutions, against the rotation",
-    "mean stress, alternating": "of the largest change of stress between two instants of the last "
-    "revolution, at the node away from clamp and contact with the least margin (without `fatigue` "
-    "of the blade with the largest alternating stress); not of a growing motion; of one that dies "
-    "out it was larger before",
-    "margin": "factor by which the alternating stress may grow at that mean stress "
-    "(strength: `fatigue` of the blade)",
+    "mean stress, alternating": "of the largest change of stress between two instants of a "
+    "revolution, the worst of the last one and of three that strain the blade most, at the node "
+    "away from clamp and contact with the least margin (without `fatigue` of the blade with the "
+    "largest alternating stress); of a growing motion the alternating stress is more (>)",
+    stress_told.RISES: "the stress rises further, towards the part of the blade that is left out",
+    "margin": "factor by which the alternating stress may grow at that mean stress, to the "
+    "endurance at 1e7 cycles (strength: `fatigue` of the blade)",
+    "Miner's damage": "of the run, by rainflow and one slope of the S-N line (`fatigue.slope_k`)",
+    "cycles": "of the run; s to 1e7: time to so many at that speed",
     "±": "root of the sum of squares of the changes by a twin (gaps changed by 1e-10), by models "
     "with frequencies off by their known errors, by a model with half the patches, and by a run "
     "with twice the steps, rods and strips (the last two not with central differences, with "
@@ -104,6 +109,7 @@ MEANING = {  # of the columns
     "listed",
     CHAOTIC: "a change of all gaps by 1e-10 changes the numbers by over 1 %",
 }
+OF_STATES = {"sigma"}  # of ``stress.json``: for second runs
 FINER = {"finer", "companion"}  # second runs of other fineness: one of them
 PARTS = {  # of uncertainties, that may not be known
     "twin": "change by a twin",
@@ -116,7 +122,7 @@ PARTS = {  # of uncertainties, that may not be known
 # Values of a scene taken from its answers as they are.
 COPIED = (
     *("scene", "blade", "f1_Hz", "gap_m", "dofs", "status", "reasons", "ends", "swept", "free"),
-    *("checks", "model_error", "no_torque", "mu_crit", "sweep_s"),
+    *("checks", "model_error", "no_torque", "mu_crit", "sweep_s", "errors_of_worst"),
 )
 
 COURSE = {  # of ``Course``: unit and its scale from SI
@@ -124,6 +130,8 @@ COURSE = {  # of ``Course``: unit and its scale from SI
     "largest_round": ("round", 1.0),
     "place": ("xi", 1.0),
     "wears": ("mm3 per round", 1e9),
+    "grows": ("1", 1.0),
+    "grows_in": ("rounds", 1.0),
 }
 
 
@@ -144,6 +152,7 @@ class PeakRow(margins.Speed):
     unknown: dict[str, list[str]]  # parts of the uncertainty of ``ALL`` numbers, or of one
     over_gap: dict[str, float | None]  # amplitude and wear over the gap, as figures have them
     values: dict[str, float]
+    rises: str  # end of the airfoil towards which its stress rises further; else empty
     errors: Mapping[str, float | None]
     other: dict[str, float]  # of the second of two motions
 
@@ -181,7 +190,10 @@ def _scene(
     """One scene; ``stress``: as of ``stress.json``; ``campbell``: its linear crossings."""
     from simulate.sweeps.peak import Peak  # slow, as above
 
-    stress_by_speed = {row["speed_over_f1"]: row for row in stress["speeds"]} if stress else {}
+    stress_by_speed = {
+        row["speed_over_f1"]: {key: row[key] for key in row.keys() - OF_STATES}
+        for row in (stress["speeds"] if stress else [])
+    }
     found = [Peak.of(peak) for peak in results["peaks"]]
     rows = [_row(results, peak, stress_by_speed.get(peak.Omega_c, {})) for peak in found]
     rub_peaks = [
@@ -203,7 +215,7 @@ def _scene(
         "answers_s": sum(peak.seconds for peak in found),
         "runs": sum(peak.runs for peak in found),
         "rows": rows,
-        "stresses": [*stress_by_speed.values()],
+        "stress": stress and {**stress, "speeds": [*stress_by_speed.values()]},
         "operating": campbell,
         "margins": margins.rows(
             campbell,
@@ -218,7 +230,8 @@ def _scene(
 def _row(results: Mapping[str, Any], peak: "Peak", stress: Mapping[str, Any]) -> PeakRow:
     """The row of a peak; ``stress``: that of its speed, empty where it is not known."""
     f1, k, over_f1 = results["f1_Hz"], peak.k, peak.Omega_c
-    values = peak.numbers | {name: stress[name] for name in stress if name in STRESS}
+    of_stress = (*stress_told.STRESS, *stress_told.COUNTS)
+    values = peak.numbers | {name: stress[name] for name in of_stress if name in stress}
     unexplained = NO_CROSSING * bool(k and not peak.modes)
     return {
         "k": k,
@@ -242,6 +255,7 @@ def _row(results: Mapping[str, Any], peak: "Peak", stress: Mapping[str, Any]) ->
             "wear": (wear := values.get("wear")) and wear / results["gap_m"],
         },
         "values": values,
+        "rises": stress.get("rises", ""),
         "errors": peak.errors,
         "other": peak.other,
     }
@@ -351,7 +365,7 @@ def columns(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
 def shown(scene: Mapping[str, Any]) -> list[tuple[list[str], list[list[str]]]]:
     """Heads and rows of a scene's tables: motion and wear, then loads; without empty columns."""
     kept, rows = known_columns(row["values"] for row in scene["rows"]), scene["rows"]
-    second = LOADS | STRESS
+    second = {*LOADS, *stress_told.STRESS, *stress_told.COUNTS, "damage"}
     motion, loads = (
         [column for column in kept if (column.name in second) is among] for among in (False, True)
     )
@@ -399,18 +413,21 @@ def _cell(row: PeakRow, column: Column) -> str:
         return "-"
     number = column.number(value, error, least=_in_part(row, column.name))
     further = "" if other is None else f" or {column.number(other, error).shown}"
+    if column.name in stress_told.COUNTS:
+        return number.shown
+    bound = stress_told.bound(column.name, row["course"].get("trend"))
+    rises = f" {stress_told.RISES}" * bool(row["rises"] and column.name == "alternating")
     goes_on = f", {row['course'].get('trend')}" if column.name == "amplitude" and moves(row) else ""
     where = PLACES.get(row["place"], "") * (column.name == "amplitude")
     revolution = row["course"].get("largest_round") if column.name == "displacement" else None
     revolution_text = f" (rev. {revolution:.0f})" if revolution else ""
-    return f"{number.shown}{further} {number.share}{goes_on}".rstrip() + revolution_text + where
+    text = f"{bound}{number.shown}{further} {number.share}{goes_on}".rstrip()
+    return text + rises + revolution_text + where
 
 
 def _in_part(row: PeakRow, name: str) -> bool:
     """Whether parts of the uncertainty of a number are not known, others are."""
-    return name not in STRESS and any(
-        row["unknown"][part] for part in (ALL, name) if part in row["unknown"]
-    )
+    return any(row["unknown"][part] for part in (ALL, name) if part in row["unknown"])
 
 
 def moves(row: PeakRow) -> bool:
@@ -425,7 +442,7 @@ def _end_of_run(row: PeakRow) -> list[str]:
     texts = [
         markdown.cell(number) if number is None or isfinite(number) else "-" for number in numbers
     ]
-    return [course.get("trend", "-"), *texts]
+    return [stress_told.growing(course), *texts]
 
 
 def about(scene: Mapping[str, Any]) -> str:
@@ -444,13 +461,16 @@ def about(scene: Mapping[str, Any]) -> str:
 def notes(scene: Mapping[str, Any]) -> list[str]:
     """Crossings, ends of the sweep, operating lines, unknown parts, cost of uncertainties."""
     lines = [*_without_peaks(scene), *crossings_and_ends(scene), *_operating_lines(scene)]
-    lines += _worst(scene)
+    if scene["stress"]:
+        of_peaks = {row["over_f1"]: row["errors"] for row in scene["rows"]}
+        errors = scene["errors_of_worst"] or of_peaks.get(scene["stress"]["worst"], {})
+        lines += stress_told.worst(scene["stress"], errors)
     numbers = {name for row in scene["rows"] for name in row["values"]}
     missing = {part for row in scene["rows"] for parts in row["unknown"].values() for part in parts}
     unknown = [PARTS[part] for part in PARTS if part in missing]
     without = [f"{row['rpm']:.0f}" for row in scene["rows"] if "alternating" not in row["values"]]
     if without:
-        unknown.append(f"stress at {', '.join(without)} rpm, of growing or unrecorded motions")
+        unknown.append(f"stress at {', '.join(without)} rpm, whose motion is not recorded")
     if "force" in numbers and scene["no_torque"]:
         unknown.append(f"torque ({scene['no_torque']})")
     if unknown:
@@ -483,25 +503,6 @@ def _operating_lines(scene: Mapping[str, Any]) -> list[str]:
     campbell = scene["operating"]
     lines = (margins.nearest(campbell, scene["margins"], name) for name in campbell["lines"])
     return [*chain(*lines), margins.covered(campbell)]
-
-
-def _worst(scene: Mapping[str, Any]) -> list[str]:
-    """Speed and node of the least margin, or of the largest alternating stress, of known speeds."""
-    stresses = [row for row in scene["stresses"] if "alternating" in row]
-    if not stresses:
-        return []
-    row = min(stresses, key=lambda row: row.get("margin", -row["alternating"]))
-    numbers = [
-        f"{column.head} {column.shown(row)}"
-        for column in COLUMNS
-        if column.name in STRESS & row.keys()
-    ]
-    place = ", ".join(f"{x:.4g}" for x in row["at"])
-    return [
-        f"Worst stress of {len(stresses)} of {len(scene['stresses'])} speeds (no growing motions): "
-        f"{RPM_PER_HZ * scene['f1_Hz'] * row['speed_over_f1']:.0f} rpm, x, y, z = {place} "
-        f"{row['unit']}, {', '.join(numbers)}."
-    ]
 
 
 def crossings_and_ends(scene: Mapping[str, Any]) -> list[str]:
@@ -585,6 +586,7 @@ def _record(scene: Mapping[str, Any], row: PeakRow) -> dict[str, Any]:
         "speed over crossing": _digits(row["over_crossing"]),
         "at end of sweep": int(row["bound"]),
         "lobes": row["lobes"],
+        "stress rises towards": row["rises"],
         **numbers,
     }
 

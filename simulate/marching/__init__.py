@@ -11,7 +11,7 @@ from simulate.marching.setup import (
     strip_stiffness,
 )
 from simulate.marching.start import FinalState, Worn
-from simulate.marching.states import every, largest_state
+from simulate.marching.states import largest_state
 from simulate.marching.status import (
     SENSITIVE_FROM,
     STATED,

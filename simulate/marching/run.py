@@ -21,6 +21,7 @@ from simulate.marching.kernel import RUNNING, WORN_THROUGH, Recorded, State, at_
 from simulate.marching.modal import TURNS, padded_rows, rows_of
 from simulate.marching.setup import Setup, compiling, strip_stiffness
 from simulate.marching.start import FinalState, Worn, begin, final_state
+from simulate.marching.states import MostStrained, every
 from simulate.marching.status import WITH_RESULT, Facts, judge, why_no_contact
 from simulate.marching.trend import Rounds, looks, time_constant
 from simulate.scene import STEADY, TOO_SHORT, Record, Scene
@@ -66,6 +67,10 @@ class Outcome:
     # (samples, places), m, as ``u_r`` in the revolutions of the spectrum, at ``JUDGED``
     judged: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 0)))
     u_t: NDArray[np.float64] = field(default_factory=lambda: np.empty(0))
+    # for a motion: reduced displacements (6, instants, n), m, of ``MostStrained``, and the numbers
+    # of these revolutions (6,), 0 where one is another one
+    strained: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 0, 0)))
+    strained_rounds: NDArray[np.int64] = field(default_factory=lambda: np.empty(0, int))
 
     @property
     def ledger(self) -> Ledger:
@@ -148,9 +153,9 @@ def march(scene: Scene, setup: Setup, start: FinalState | Worn | None = None) ->
     least = scene.record.rounds_of_spectrum
     judged = looks(standing, least, scene.rounds) if scene.until else {scene.rounds}
     both_steady = [STEADY] * 2 if scene.until else None  # at two looks in turn
-    every = 2 - scene.record.samples_per_round % 2  # twice as many readings cost a run 2 % more
-    of_round = scene.record.samples_per_round // every, len(setup.Phi_gauges)
-    gauges = np.full((least, *of_round), np.nan)
+    thin = 2 - scene.record.samples_per_round % 2  # twice as many readings cost a run 2 % more
+    of_round = scene.record.samples_per_round // thin, len(setup.Phi_gauges)
+    gauges, most = np.full((least, *of_round), np.nan), _most_strained(scene.record, setup)
     while done < scene.rounds and end == RUNNING and words[-2:] != both_steady:
         of_kernel = arguments(done, first)
         touched, step, end, node = kernel(*of_kernel)
@@ -161,8 +166,10 @@ def march(scene: Scene, setup: Setup, start: FinalState | Worn | None = None) ->
             for edge, each in enumerate(at_edges):
                 each.add(done, samples[:, edge], worn)
             if scene.record.gauges and (row := done - scene.rounds + least) >= 0:
-                modal = of_kernel[3].states[every - 1 :: every, : len(setup.Phi)]
+                modal = of_kernel[3].states[thin - 1 :: thin, : len(setup.Phi)]
                 gauges[row] = modal @ setup.Phi_gauges.T
+            if most:
+                most.add(done + 1, of_kernel[3].states)
         done += 1
         if done in judged or end != RUNNING:
             whole = end == RUNNING
@@ -199,6 +206,7 @@ def march(scene: Scene, setup: Setup, start: FinalState | Worn | None = None) ->
         u_r=u_r[:, shown],
         judged=u_r[-of_spectrum:, :judged],
         states=states.reshape(-1, states.shape[2])[:, : len(setup.Phi)] @ setup.Phi.T,
+        **(_once(most, setup) if most else {}),
         ends=setup.places.ends,
         wear=strips.thickness * state.eps_p,
         force_peak=forces[:, 0],
@@ -217,6 +225,23 @@ def march(scene: Scene, setup: Setup, start: FinalState | Worn | None = None) ->
         if status == "no-contact"
         else "",
     )
+
+
+def _most_strained(record: Record, setup: Setup) -> MostStrained | None:
+    """Room for the revolutions that strain the blade most, where a motion is recorded."""
+    if record.motion is None:
+        return None
+    thin = every(record.motion, record.samples_per_round, setup.omega, setup.Omega)
+    return MostStrained.room(setup.omega, thin, record.samples_per_round)
+
+
+def _once(most: MostStrained, setup: Setup) -> dict[str, NDArray[Any]]:
+    """The revolutions that strain the blade most, each once."""
+    numbers = most.numbers.ravel()
+    first = np.isin(np.arange(numbers.size), np.unique(numbers, return_index=True)[1])
+    numbers = np.where(first, numbers, 0)
+    q = np.where(numbers[:, None, None] > 0, most.q.reshape(numbers.size, *most.q.shape[2:]), nan)
+    return {"strained": q @ setup.Phi.T, "strained_rounds": numbers}
 
 
 def _row(done: int, kept: int, rounds: int, until: str | None) -> int:

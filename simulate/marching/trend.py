@@ -137,6 +137,24 @@ def trend(swing: NDArray[np.float64], worn: NDArray[np.float64], tau: float) -> 
     return STEADY if not wears and _is_steady(swing[n // 2 :], min(tau, LONGEST * n)) else TOO_SHORT
 
 
+def further(swing: NDArray[np.float64]) -> float:
+    """Share by which a growing ``swing`` (n,) rises in n revolutions more, over that at its end.
+
+    Its changes from quarter to quarter go on in the ratio r of the last two, at most 1: it nears a
+    limit exponentially, or grows on.
+
+    >>> j = np.arange(1, 401)
+    >>> swing = 1 - np.exp(-j / 150)
+    >>> round(further(swing), 4), round((1 - np.exp(-800 / 150)) / swing[-1] - 1, 4)
+    (0.0694, 0.0694)
+    """
+    quarters = np.array([quarter.mean() for quarter in np.array_split(swing, 4)])
+    before, last = np.diff(quarters)[1:]
+    r = np.sqrt(np.clip(last / before, 0.0, 1.0))  # of half a quarter, from its middle to its end
+    end = quarters[-1] + last * r**2 / (1 + r)
+    return float(last * r**3 * (r ** (2 * np.arange(4))).sum() / end)
+
+
 def _is_steady(swing: NDArray[np.float64], tau: float) -> bool:
     """Whether the part exp(-j/tau) is small at the end of ``swing`` (n,), and its mean too.
 

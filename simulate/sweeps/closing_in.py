@@ -16,7 +16,7 @@ from geometry.project import Say, known, silent
 from rom.model import Rom
 from simulate.errors.accuracy import Choice
 from simulate.scene import Peaks, Scene
-from simulate.sweeps.dataset import checks, merge
+from simulate.sweeps.dataset import OF_MOTION, checks, merge
 from simulate.sweeps.over_speeds import as_sweep, at_speeds, tell_before
 from simulate.sweeps.peak import Responses, along_order, rise
 from simulate.sweeps.plausible import doubts_of_runs, warn_of
@@ -58,18 +58,19 @@ def close_in(
 
     Limits that the runs exceed are warned of.
     """
-    first_runs, added, seen = runs, [], {}
+    judged, added, seen = runs.drop_vars(OF_MOTION, errors="ignore"), [], {}
     while scene.peaks:
-        of, along_of = Responses.of(runs, rom), partial(along_order, runs)
-        speeds = further(scene.peaks, runs["speed"].values, of, along_of, seen, len(added))
+        of, along_of = Responses.of(judged, rom), partial(along_order, judged)
+        speeds = further(scene.peaks, judged["speed"].values, of, along_of, seen, len(added))
         if not speeds:
             break
         new = at_speeds(scene, rom, speeds, report, choice, start)
-        runs, added = merge([runs, as_sweep(new, choice=choice, check=False)]), added + new
+        of_new = as_sweep(new, choice=choice, check=False).drop_vars(OF_MOTION, errors="ignore")
+        judged, added = merge([judged, of_new]), added + new
     if scene.peaks and not scene.peaks.orders and len(added) == scene.peaks.most:
         report(f"peaks.most: {len(added)} speeds are added: more may raise peaks")
     if added:
-        runs = merge([first_runs, as_sweep(added, report, choice)])
+        runs = merge([runs, as_sweep(added, report, choice)])
     report(checks(runs))
     warn_of(doubts_of_runs(runs).values())
     return runs

@@ -2,7 +2,7 @@
 
 import json
 from collections import Counter
-from collections.abc import Hashable, Iterable, Mapping, Sequence, Set
+from collections.abc import Collection, Hashable, Iterable, Mapping, Sequence, Set
 from dataclasses import asdict, fields
 from datetime import UTC, datetime
 from itertools import chain
@@ -37,10 +37,12 @@ from simulate.errors.neighbours import GAP_CHANGE
 from simulate.errors.observables import NUMBERS, last_spectrum
 from simulate.errors.run import Run
 from simulate.errors.signals import Lines, lines
-from simulate.marching import STATUSES, WITH_RESULT, FinalState, every, strip_stiffness
+from simulate.marching import STATUSES, WITH_RESULT, FinalState, strip_stiffness
 from simulate.marching.friction import growth_rate, mu_crit
 from simulate.marching.setup import sliding_modes, with_lean
-from simulate.scene import LEADING, Scene
+from simulate.marching.states import every
+from simulate.marching.trend import further
+from simulate.scene import GROWING, LEADING, Scene
 from simulate.scene.laws.table import Tabulated
 from simulate.sweeps.plain import Course
 
@@ -121,6 +123,13 @@ VARIABLES = {  # of each run: dimensions beside the speed, unit, meaning
     "force_tangential_mean": ("round share", "N", "mean t_T, against the rotation"),
     "torque": ("round", "N m", "mean torque on the rotor in a revolution, against the rotation"),
     "motion": ("motion_time dof", "m", "reduced displacements u in the last revolution"),
+    "strained": (
+        "strained_place instant dof",
+        "m",
+        "the same at instants of the revolutions that strain the blade most, two by each of three "
+        "measures: range of the strain energy, of mode 1, energy of the ranges of all modes",
+    ),
+    "strained_round": ("strained_place", "1", "their numbers; 0: it is another one"),
     "gauge_strain": ("gauge gauge_time", "1", "strain of the vibration along a gauge"),
     "gauge_stress": ("gauge gauge_time", "Pa", "stress of the vibration along a gauge"),
     "gauge_strain_static": ("gauge", "1", "strain of rotation along a gauge; total: their sum"),
@@ -160,6 +169,7 @@ COORDINATES = {  # dimensions, unit, meaning
     "observable": ("observable", "", ""),
 }
 GAP_OF_SPEED = (SPEED, "strip"), "m", "gap at the speed"  # another at each
+OF_MOTION = ("motion", "strained")  # what pictures and stresses are made of, most of a file
 ALWAYS = ("status", "f1", "step", "contact_share", "ledger", SPEED, "speed", "xi", "width", "gap")
 RECORDED = {  # by the key of the scene's record that asks for them
     "wear": ("wear",),
@@ -248,8 +258,8 @@ def save(dataset: xr.Dataset, path: str | Path) -> None:
     write(dated, path, packed)
 
 
-def load(path: str | Path) -> xr.Dataset:
-    """Read a sweep or a block into memory.
+def load(path: str | Path, leave: Collection[str] = ()) -> xr.Dataset:
+    """Read a sweep or a block into memory, but for variables to ``leave``.
 
     Raises
     ------
@@ -262,7 +272,7 @@ def load(path: str | Path) -> xr.Dataset:
         if "scene" not in runs.attrs:
             raise KeyError("no attribute scene")
         require_format(runs.attrs, FORMAT, path, run_again)
-        _require_runs(runs.load())
+        _require_runs(runs := runs.drop_vars(leave, errors="ignore").load())
         return runs
 
 
@@ -453,6 +463,10 @@ def course(run: xr.Dataset) -> Course:
         return {"trend": run["trend"].item()}
     worn = run["worn"].values[: int(run["rounds"])]
     place: Course = {"place": run["place"].item()} if "place" in run else {}
+    if run["trend"].item() == GROWING:
+        counted = slice(scene_of(run).casing.changes_until, len(worn))
+        swing = np.diff(run["extremes"].values[counted], axis=1)[:, 0]
+        place |= {"grows": further(swing), "grows_in": len(swing)}
     return place | {
         "trend": run["trend"].item(),
         "time_constant": run["time_constant"].item(),
@@ -632,14 +646,17 @@ def _of_gauges(run: Run) -> dict[str, Any]:
 
 
 def _of_motion(run: Run) -> dict[str, Any]:
-    """Data of pictures: states of the last revolution, and the range of u_r over all of them."""
+    """States of the last revolution and of those that strain most; range of u_r over all."""
     scene, outcome, samples = run.scene, run.outcome, run.scene.record.samples_per_round
-    step = every(known(scene.record.motion, "motion"), samples, run.setup.omega, run.setup.Omega)
+    mode = known(scene.record.motion, "motion")
+    step = every(mode, samples, run.setup.omega, run.setup.Omega)
     edges = np.rint(np.arange(WINDOWS * scene.rounds) * samples / WINDOWS).astype(int)
     bounds = [bound.reduceat(outcome.u_r[:, 0], edges) for bound in (np.minimum, np.maximum)]
     return {
         "motion": outcome.states[-samples:][step - 1 :: step].astype(np.float32),
         "motion_time": scene.rounds - 1 + np.arange(step, samples + 1, step) / samples,
+        "strained": outcome.strained.astype(np.float32),
+        "strained_round": outcome.strained_rounds,
         "envelope": np.stack(bounds, axis=-1).astype(np.float32),
         "window": (np.arange(len(edges)) + 0.5) / WINDOWS,
     }

@@ -16,7 +16,7 @@ includes the rise to the top of the resonance through the three speeds. A peak w
 from model to model has two motions (``errors.bistable``).
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from math import hypot, inf, isfinite, nan
 from time import perf_counter, process_time
@@ -24,7 +24,9 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
+from fem.node_stress import NodeStress
 from geometry.project import Say, SettingsError, known, progress, silent
 from geometry.tip import EDGES
 from rom.coarser import coarser
@@ -38,6 +40,7 @@ from simulate.errors.neighbours import ITSELF, TWIN, raised
 from simulate.errors.observables import Numbers, numbers
 from simulate.errors.run import Case, as_long
 from simulate.errors.signals import gaps_at_ends, leading_gap, leading_wear, lobe_count
+from simulate.errors.stressed import OF_STRESS, at_node, stress_of, through
 from simulate.marching import SENSITIVE_FROM, WITH_RESULT, prepare
 from simulate.scene import LEADING, OF_LAST_ROUNDS, Scene
 from simulate.sweeps.before import before
@@ -60,17 +63,21 @@ def results(
     start: xr.Dataset | None = None,
     report: Say = silent,
     second_order: SecondOrder | None = None,
+    stress: Mapping[str, Any] | None = None,
+    peaks: Sequence[Peak] | None = None,
 ) -> list[Peak]:
     """The reported peaks of a sweep with their results; without any, where it responds most.
 
-    ``second_order``: of the blade, where it is known.
+    ``second_order``, ``stress``: of the blade, and as of ``workflow.stress.write``, where known;
+    ``peaks``: others than those reported.
 
     ``start``: as of ``closing_in.sweep``. Runs in turn are not repeated: their numbers have no
     uncertainty.
     """
-    scene = to_march(runs)
+    scene = to_march(runs, stress)
     start_at = before(scene, rom, start)
-    done_peaks, peaks, start_of_all = [], asked(runs, rom), perf_counter()
+    peaks = asked(runs, rom) if peaks is None else peaks
+    done_peaks, start_of_all = [], perf_counter()
     for done, peak in enumerate(peaks, 1):
         begun = process_time()
         if peak.status in WITH_RESULT and not scene.speeds.in_turn:
@@ -78,7 +85,7 @@ def results(
             case = replace(case, start=start_at(case.setup.Omega))
             if peak.k and not peak.at_end:
                 peak = _with_rise(peak, case, runs)
-            peak = _with_errors(peak, case, model_error)
+            peak = _with_errors(peak, case, model_error, stress)
             if second_order is not None:
                 peak = _with_second_order(peak, case, second_order, runs.attrs["gap_m"])
         peak = replace(peak, seconds=process_time() - begun)
@@ -88,10 +95,28 @@ def results(
     return done_peaks
 
 
+def worst_stressed(
+    runs: xr.Dataset, stress: Mapping[str, Any] | None, peaks: Sequence[Peak]
+) -> list[Peak]:
+    """The speed of the worst ``stress``, as a peak along no order; none where it is one of them."""
+    speeds = runs["speed_over_f1"].values
+    indices = np.flatnonzero(speeds == (stress or {}).get("worst"))
+    others = (int(index) for index in indices if index not in {peak.index for peak in peaks})
+    status = runs["status"].values.astype(str)
+    return [Peak(None, i, float(speeds[i]), status=status[i].item()) for i in others]
+
+
 def of_sweep(
-    runs: xr.Dataset, rom: Rom, model_error: ModelError, peaks: list[Peak]
+    runs: xr.Dataset,
+    rom: Rom,
+    model_error: ModelError,
+    peaks: Sequence[Peak],
+    worst: Sequence[Peak] = (),
 ) -> dict[str, Any]:
-    """Results of a sweep with its names and units, as plain values for JSON."""
+    """Results of a sweep with its names and units, as plain values for JSON.
+
+    ``worst``: as of ``worst_stressed``, of whose results the errors are told.
+    """
     return {
         "scene": runs.attrs.get("name", ""),
         "blade": runs.attrs["blade"],
@@ -111,6 +136,7 @@ def of_sweep(
         "reasons": sorted({*runs["reason"].values.astype(str)} - {""}) if "reason" in runs else [],
         "ends": ends(runs),
         "peaks": [peak.plain() for peak in peaks],
+        "errors_of_worst": next((peak.errors for peak in worst), None),
     }
 
 
@@ -144,13 +170,18 @@ def line(peak: Peak) -> str:
     return f"{peak.name or 'no peak'} at {peak.Omega_c:.4f} f1(0), {peak.verdict or peak.status}"
 
 
-def to_march(runs: xr.Dataset) -> Scene:
+def to_march(runs: xr.Dataset, stress: Mapping[str, Any] | None = None) -> Scene:
     """The scene of a sweep for repeated runs at single speeds, with its contact force.
 
-    It has the step, rods and strips that a sweep with an accuracy was run with.
+    It has the step, rods and strips that a sweep with an accuracy was run with; for its ``stress``
+    its motion, and for the damage all states.
     """
-    unused = dict.fromkeys(OF_LAST_ROUNDS)
-    return scene_of(runs).but(
+    scene, unused = scene_of(runs), dict.fromkeys(OF_LAST_ROUNDS)
+    if stress:
+        unused["motion"] = scene.record.motion
+        if (stress["fatigue"] or {}).get("slope_k"):
+            unused["states_rounds"] = scene.rounds
+    return scene.but(
         twin=False,
         halving=False,
         peaks=None,
@@ -219,14 +250,19 @@ def _with_rise(peak: Peak, case: Case, runs: xr.Dataset) -> Peak:
     return replace(peak, parts=parts, runs=0 if case.start else 2)
 
 
-def _with_errors(peak: Peak, case: Case, model_error: ModelError) -> Peak:
-    """The peak with its numbers, their errors, and the verdict on it."""
-    runs = []
+def _with_errors(
+    peak: Peak, case: Case, model_error: ModelError, stress: Mapping[str, Any] | None
+) -> Peak:
+    """The peak with its numbers, their errors, and the verdict on it; stress has no part in that.
 
-    def numbers_of(other: Neighbour) -> Numbers:
-        """Numbers of a second run, which is counted."""
+    ``stress``: as of ``results``.
+    """
+    runs, at = [], at_node(stress, peak.index) if stress else None
+
+    def numbers_of(other: Neighbour, T: NDArray[np.float64] | None = None) -> Numbers:
+        """Numbers of a second run, which is counted; u = T u' of its displacements u'."""
         runs.append(other)
-        return at_peak(case.neighbour(other), peak)
+        return at_peak(case.neighbour(other), peak, through(at, T))
 
     first = numbers_of(ITSELF)
     parts, sides = peak.parts | {"twin": change(first, numbers_of(TWIN))}, None
@@ -244,26 +280,34 @@ def _with_errors(peak: Peak, case: Case, model_error: ModelError) -> Peak:
             sides = sides or _sides(
                 by_share, lambda share, moves=moves: numbers_of(raised(share, moves))
             )
-    for name, (other, times) in _of_other_fineness(case).items():
-        changes = change(first, numbers_of(other))
-        least = LEAST_PART * largest(changes)
+    for name, (other, times, T) in _of_other_fineness(case).items():
+        changes = change(first, numbers_of(other, T))
+        least = LEAST_PART * _largest(changes)
         parts[name] = {number: max(size, least) / times for number, size in changes.items()}
     if peak.k and peak.at_end:
         parts["speeds"] = {"amplitude": inf}
-    chaotic = largest(parts["twin"]) > SENSITIVE_FROM
+    if stress and at:
+        parts["stress"] = stress["speeds"][peak.index]["mesh"]
+    chaotic = _largest(parts["twin"]) > SENSITIVE_FROM
     return replace(
         peak,
         verdict=CHAOTIC if chaotic else TWO_MOTIONS if sides else ONE_MOTION,
         numbers=first,
         errors={
-            name: value * hypot(*filter(isfinite, (part.get(name, 0.0) for part in parts.values())))
+            name: abs(value)
+            * hypot(*filter(isfinite, (part.get(name, 0.0) for part in parts.values())))
             for name, value in first.items()
         },
         # of the run that differs most from the first
-        other=max(sides, key=lambda side: largest(change(first, side))) if sides else {},
+        other=max(sides, key=lambda side: _largest(change(first, side))) if sides else {},
         parts=parts,
         runs=peak.runs + len(runs),
     )
+
+
+def _largest(changes: Numbers) -> float:
+    """Largest change of the numbers of the motion; those of stress follow them, some steeply."""
+    return largest({name: size for name, size in changes.items() if name not in OF_STRESS})
 
 
 def _with_second_order(peak: Peak, case: Case, known: SecondOrder, gap: float) -> Peak:
@@ -299,37 +343,40 @@ def case_of(runs: xr.Dataset, scene: Scene, rom: Rom, peak: Peak) -> Case:
     return Case(as_long(scene, rounds), rom, prepare(scene, rom, Omega, int(steps)))
 
 
-def at_peak(case: Case, peak: Peak) -> Numbers:
+def at_peak(case: Case, peak: Peak, stress: NodeStress | None = None) -> Numbers:
     """Numbers of a run along the order of a peak, at its place; none without result.
 
-    Those of contact where there is any.
+    Those of contact where there is any, of ``stress`` where it is known.
     """
     run = case.march()
     if run.outcome.status not in WITH_RESULT:
         return {}
     values = numbers(run, peak.k, peak.place if peak.k else None)
     names = OF_MOTION | (OF_CONTACT if case.scene.liner.law.touches else {})
-    return {name: values[key] for name, key in names.items() if key in values}
+    of_motion = {name: values[key] for name, key in names.items() if key in values}
+    return of_motion | (stress_of(run, stress) if stress else {})
 
 
-def _of_other_fineness(case: Case) -> dict[str, tuple[Neighbour, float]]:
+def _of_other_fineness(
+    case: Case,
+) -> dict[str, tuple[Neighbour, float, NDArray[np.float64] | None]]:
     """Second runs of other fineness, and how many errors of the run each differs from it by.
 
-    None where there are none. A rigid casing takes no more strips than patches: there one run is
-    coarser in all.
+    And T of u = T u', from displacements u' of another model. None where there are none. A rigid
+    casing takes no more strips than patches: there one run is coarser in all.
     """
     if case.scene.stepping.scheme != "piecewise-exact" or case.start is not None:
         return {}
     try:
-        coarse, _ = coarser(case.rom)
+        coarse, T = coarser(case.rom)
         finer = Fineness.of(case.setup).finer().scene(case.scene)
     except (RomError, SettingsError):  # points, too few patches; more strips than are allowed
         return {}
     if case.scene.liner.rigid_key:
-        return {"companion": (companion(case.setup, coarse), TIMES)}
+        return {"companion": (companion(case.setup, coarse), TIMES, T)}
     return {
-        "patches": (Neighbour("fewer patches and modes", rom=lambda _: coarse), TIMES),
-        "finer": (Neighbour("finer", scene=lambda _: finer), FINER_TIMES),
+        "patches": (Neighbour("fewer patches and modes", rom=lambda _: coarse), TIMES, T),
+        "finer": (Neighbour("finer", scene=lambda _: finer), FINER_TIMES, None),
     }
 
 

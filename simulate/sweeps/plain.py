@@ -36,6 +36,8 @@ class Course(TypedDict, total=False):
     time_constant: float  # revolutions, in which the mode that responds dies out to 1/e
     largest_round: float  # number of the revolution of the largest displacement
     wears: float  # m3 in a revolution, mean of the last quarter
+    grows: float  # share by which a growing swing rises in ``grows_in`` revolutions more
+    grows_in: int
     place: float  # xi of the motion that is told, on a casing that tapers
 
 

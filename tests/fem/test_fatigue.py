@@ -5,7 +5,7 @@ import pytest
 from scipy.spatial.distance import pdist
 from scipy.spatial.transform import Rotation
 
-from fem.fatigue import FIVE, allowed, largest_cycle, margin, von_mises
+from fem.fatigue import FIVE, allowed, damage, largest_cycle, margin, uniaxial, von_mises
 from fem.fields import TENSOR
 from geometry.blade import Fatigue
 from geometry.project import SettingsError, check_settings
@@ -92,3 +92,42 @@ def test_strengths_out_of_order_are_refused(yield_MPa):
     said = f"yield_MPa: {yield_MPa}: allowed from endurance_MPa = 500 to ultimate_MPa = 1000"
     with pytest.raises(SettingsError, match=said):
         check_settings(Fatigue, STRENGTH | {"yield_MPa": yield_MPa}, "mine.yaml")
+
+
+def with_slope(line="goodman"):
+    return Fatigue(**STRENGTH, line=line, slope_k=9)
+
+
+def test_ten_million_cycles_at_the_endurance_crack_and_one_takes_its_share():
+    """Miner by hand: n cycles of amplitude S at mean m take n/1e7 (S/S_a(m))^9."""
+    n = 40
+    signal = np.append(500e6 * np.cos(np.pi * np.arange(2 * n)), 500e6)  # n whole cycles, mean 0
+    assert damage(signal, with_slope()) == pytest.approx(n / 1e7, rel=1e-12)
+    assert damage(signal / 2, with_slope()) == pytest.approx(n / 1e7 / 2**9, rel=1e-12)
+    raised = 200e6 + signal / 4  # Goodman: 400 MPa at a mean of 200, amplitude 125
+    assert damage(raised, with_slope()) == pytest.approx(n / 1e7 * (125 / 400) ** 9, rel=1e-12)
+    assert damage(np.full(9, 1e8), with_slope()) == 0.0
+    assert damage(900e6 + signal / 4, with_slope()) == np.inf  # beyond yield
+
+
+def test_the_damage_of_a_made_signal_is_its_rainflow_count_by_hand():
+    """The example of ASTM E1049, Fig. 6: ranges, means and counts as the standard lists them."""
+    signal = 50e6 * np.array([-2, 1, -3, 5, -1, 3, -4, 4, -2.0])
+    listed = [(3, -0.5, 0.5), (4, -1, 0.5), (4, 1, 1), (8, 1, 0.5), (9, 0.5, 0.5), (8, 0, 0.5)]
+    expected = 0.0
+    for span, mean, count in [*listed, (6, 1, 0.5)]:
+        S, S_a = 25 * span, 500 * (1 - max(50 * mean, 0) / 1000)
+        expected += count / 1e7 * (S / S_a) ** 9
+    assert damage(signal, with_slope()) == pytest.approx(expected, rel=1e-12)
+
+
+def test_the_stress_along_its_largest_change_has_its_range_and_mean():
+    """Bending over tension; over a static stress of another direction; in compression."""
+    swing = 30e6 * np.cos(PHASE)
+    np.testing.assert_allclose(uniaxial(over_time(swing, XX, 90e6 * XX)[:, 0]), 90e6 + swing)
+    sheared = uniaxial(over_time(swing, XX, 90e6 * XY)[:, 0])
+    assert np.ptp(sheared) == pytest.approx(60e6)
+    assert sheared.max() + sheared.min() == pytest.approx(2 * 90e6 * np.sqrt(3))
+    pressed = uniaxial(over_time(swing, XX, -90e6 * XX)[:, 0])
+    np.testing.assert_allclose(pressed, -90e6 + swing)
+    assert uniaxial(np.zeros((8, 6))).tolist() == [0.0] * 8

@@ -40,8 +40,10 @@ def test_the_motion_is_that_of_the_edge_that_moves_more(coarse_rom, slope):
     swings = np.ptp(by_round, axis=2) / 2
     moves = int(swings.max(axis=1).argmax())
     assert run.edge == EDGES[moves] == SLOPES[slope]
-    np.testing.assert_array_equal(run.u_r[:, 0], run.u_r[:, 1 + moves])
-    assert run.each.largest[0] == abs(by_round[moves]).max()
+    # rows of one product, which some processors sum in another order
+    round_off = 1e-14 * abs(by_round).max()
+    np.testing.assert_allclose(run.u_r[:, 0], run.u_r[:, 1 + moves], rtol=0, atol=round_off)
+    assert run.each.largest[0] == pytest.approx(abs(by_round[moves]).max(), abs=round_off)
     np.testing.assert_allclose(run.each.swing, swings[moves])
     assert run.trend == trend(swings[moves][1:], run.each.worn[1:], run.time_constant)
     u_t = np.zeros((2, coarse_rom.n))

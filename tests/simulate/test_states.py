@@ -7,6 +7,7 @@ from runs import swept
 from scenes import over_strips, scene
 
 from simulate.marching import largest_state
+from simulate.marching.states import INSTANTS, MostStrained
 
 RECORD = {
     "samples_per_round": 64,
@@ -121,7 +122,34 @@ def test_pictures_change_no_number_and_are_no_observable(coarse_rom):
     plain, shown = (
         states_of(coarse_rom, twin=True, **more) for more in ({}, {"record__motion": 3})
     )
-    assert {"motion", "envelope"} == set(shown) - set(plain)
+    assert {"motion", "envelope", "strained", "strained_round"} == set(shown) - set(plain)
     for name in set(plain) - {"seconds"}:
         np.testing.assert_array_equal(plain[name].values, shown[name].values)
     assert "states" not in shown["observable"]
+
+
+def test_the_revolutions_kept_are_the_largest_by_each_measure():
+    """Two of each: most energy, most of mode 1, most of both at different instants."""
+    omega, phase = np.array([1.0, 10.0]), 2 * np.pi * np.arange(64) / 64
+    amplitudes = {1: (3, 0), 2: (1, 0), 3: (0, 0.5), 4: (2.8, 0.35), 5: (0.1, 0.42), 6: (2.9, 0)}
+    kept = MostStrained.room(omega, 1, 64)
+    for number, (one, two) in amplitudes.items():
+        q = np.stack([one * np.cos(phase), two * np.sin(2 * phase), 0 * phase], axis=1)
+        kept.add(number, q)
+    energy, mode_1, ranges = (set(numbers) for numbers in kept.numbers.tolist())
+    assert mode_1 == {1, 6} and energy == {3, 5} and ranges == {3, 4}
+    at = np.argwhere(kept.numbers == 4)[0]
+    np.testing.assert_allclose(np.ptp(kept.q[tuple(at)], axis=0), [5.6, 0.7], rtol=0.02)
+
+
+def test_instants_near_the_mean_are_left_out():
+    """Of 1024 states those farthest from the mean are kept, in order; few are all kept."""
+    phase = 2 * np.pi * np.arange(2048) / 2048
+    kept = MostStrained.room(np.array([1.0]), 2, 2048)
+    kept.add(1, 5.0 + np.sin(phase)[:, None])
+    q = kept.q[0, 0, :, 0] - 5.0
+    assert len(q) == INSTANTS and abs(q).min() > 0.9 and np.ptp(q) > 1.9999
+    assert (np.diff(np.flatnonzero(np.isin(5.0 + np.sin(phase), kept.q[0, 0]))) > 0).all()
+    few = MostStrained.room(np.array([1.0]), 32, 65)
+    few.add(1, phase[:65, None])
+    assert few.q.shape == (3, 2, 65, 1) and not np.isnan(few.q[:, 0]).any()

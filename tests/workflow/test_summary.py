@@ -14,7 +14,7 @@ from simulate.errors.neighbour import ONE_MOTION, TWO_MOTIONS
 from simulate.scene import DYING_OUT, GROWING, TRENDS
 from simulate.sweeps.crossings import critical
 from simulate.sweeps.plain import NO_CROSSING
-from workflow import summary
+from workflow import stress_told, summary
 
 NUMBERS = {
     "amplitude": 4e-5,
@@ -65,17 +65,26 @@ OF = {
     "model_error": {"basis": 1e-4, "mesh": 9e-4},
     "no_torque": None,
     "mu_crit": None,
+    "errors_of_worst": None,
     "peaks": [ANSWER],
 }
 OPERATING = {"lines": {}, "modes": 1, "orders": [4, 5], "excited": {4: "side band"}}
 WORST = {"mean_stress": 3e8, "alternating": 2e7, "margin": 17.0, "at": [400.0, 10.0, -20.0]}
-WORST |= {"unit": "mm"}
+WORST |= {"unit": "mm", "revolution": 18, "cycles": 80, "endurance_s": 4e4, "trend": "steady"}
+MESH = {"mean_stress": 0.02, "alternating": 0.03, "margin": 0.05}
+TOLD = {"rises": "the clamp", "stands_out": 0.9, "between": 2.5e7, "mesh": MESH, "sigma": []}
 STRESS = {
     "scene": "mine",
+    "root": "sharp",
+    "away_m": 6.1e-3,
+    "too_near": None,
+    "worst": 0.3,
     "speeds": [
-        {"speed_over_f1": 0.3, "trend": "steady", **WORST, "alternating": 2.5e7, "margin": 12.5},
-        {"speed_over_f1": 0.35, "trend": "steady", **WORST},
-        {"speed_over_f1": 0.4, "trend": "growing"},
+        WORST | {"speed_over_f1": 0.25, "rpm": 3000.0},
+        WORST | {"speed_over_f1": 0.3, "rpm": 3600.0, "alternating": 2.5e7, "margin": 12.5} | TOLD,
+        WORST | {"speed_over_f1": 0.35, "rpm": 4200.0} | TOLD,
+        WORST | {"speed_over_f1": 0.38, "rpm": 4560.0, "trend": GROWING},
+        {"speed_over_f1": 0.4, "rpm": 4800.0, "trend": GROWING},
     ],
 }
 
@@ -129,11 +138,14 @@ def test_a_peak_in_units_of_engines(summed):
     }
     assert {name: float(row[name]) for name in expected} == pytest.approx(expected)
     assert (row["amplitude other (um)"], row["word"]) == ("", ONE_MOTION)
-    assert {"4200 ±9", "0.350", "40 ±5%", "300 (no ±)", "20 (no ±)", "17 (no ±)"} <= {*cells(found)}
+    assert {"4200 ±9", "0.350", "40 ±5%", "300 (no ±)", "20 (no ±) ↑", "17 (no ±)"} <= {
+        *cells(found)
+    }
     spaced = summed({"spacing": 0.027 - 3.5e-4})
     assert cells(spaced)[2] == "4200 ±324"  # no exponent
     ending = summed({"at_end": True})  # on the rise: a bound
-    assert (cells(ending)[2], read_csv(ending)["speed +- (rpm)"]) == ("4200 (end)", "")
+    assert cells(ending)[2] == "4200 (end: rises further)"
+    assert read_csv(ending)["speed +- (rpm)"] == ""
 
 
 def test_scenes_with_results_that_are_left_out_are_named(summed):
@@ -181,25 +193,61 @@ def test_scene_says_its_model_its_crossings_and_what_its_ends_show(summed):
     assert not any("rpm (" in note for note in summary.notes(foreign))
 
 
-def test_of_a_growing_motion_no_stress_is_told(summed):
-    growing = summed({"Omega_c": 0.4}, stress=STRESS)
-    assert "alternating" not in growing["scenes"][0]["rows"][0]["values"]
-    assert "stress at 4800 rpm, of growing" in summary.terminal(growing)
+def test_of_a_growing_motion_stress_and_margin_are_bounds(summed):
+    """Without a recorded motion they are not known."""
+    course = ANSWER["course"] | {"trend": GROWING, "grows": 0.02, "grows_in": 80}
+    found = summed({"course": course}, stress=STRESS)
+    assert {"> 20 (no ±) ↑", "at most 17 (no ±)", "300 (no ±)", "80", "40000"} <= {*cells(found)}
+    assert "growing, nearly over (2 % in 80 rev.)" in cells(found)
+    row = read_csv(found)
+    assert (row["stress rises towards"], float(row["grows (1)"])) == ("the clamp", 0.02)
+    without = summed({"Omega_c": 0.4}, stress=STRESS)
+    assert "alternating" not in without["scenes"][0]["rows"][0]["values"]
+    assert "stress at 4800 rpm, whose motion is not recorded" in summary.terminal(without)
 
 
 def test_the_worst_stress_of_all_speeds_is_told_with_its_node(summed):
-    """By margin; without strength by the alternating stress; nothing where none is known."""
+    """With the +- of the mesh alone, of the answers at a peak, or of its own second runs."""
     line = (
-        "Worst stress of 2 of 3 speeds (no growing motions): 3600 rpm, x, y, z = 400, 10, -20 "
-        "mm, mean stress MPa 300, alternating MPa 25"
+        "Worst stress (nominal, of the airfoil 6.1 mm from the clamp and farther; the "
+        "concentration factor of the root is not included): 3600 rpm, revolution 18, x, y, z = "
+        "400, 10, -20 mm: mean 300 MPa {}, alternating 25 MPa {}, margin of the airfoil {}; it "
+        "rises further towards the clamp. It is the worst of 4 of 5 speeds; at 1 the motion still "
+        "grows, and its stress is a lower bound."
     )
     text = summary.terminal(summed(stress=STRESS))
-    assert f"{line}, margin 12.5." in text and "stress at" not in text
-    rows = [{name: of for name, of in row.items() if name != "margin"} for row in STRESS["speeds"]]
-    found = summed(stress=STRESS | {"speeds": rows})
-    assert f"{line}." in summary.terminal(found)
-    assert "margin" not in found["scenes"][0]["rows"][0]["values"]
-    assert "Worst" not in summary.terminal(summed(stress=STRESS | {"speeds": rows[2:]}))
+    assert line.format("≥2%", "≥3%", "12.5 ≥5%") in text and "stress at" not in text
+    assert "this run has 80, and 1e7 take 4e+04 s at that speed" in text
+    assert "Between" not in text
+    errors = {"mean_stress": 3e7, "alternating": 5e6, "margin": 5.0}
+    assert line.format("±10%", "±20%", "12 ±40%") in summary.terminal(
+        summed(stress=STRESS, errors_of_worst=errors)
+    )
+    peak = {"errors": ANSWER["errors"] | errors, "Omega_c": 0.3}
+    assert line.format("±10%", "±20%", "12 ±40%") in summary.terminal(summed(peak, stress=STRESS))
+    assert "Worst" not in summary.terminal(summed(stress=STRESS | {"speeds": STRESS["speeds"][4:]}))
+
+
+def test_what_the_worst_stress_is_worth_is_told(summed):
+    """At an end of the sweep, of all revolutions, of a node that stands out, near the clamp."""
+    row = STRESS["speeds"][1] | {"between": 3e7, "stands_out": 1.5}
+    row |= {"nearer": WORST | {"alternating": 3e7, "mesh": MESH}}
+    told = STRESS | {"speeds": [row], "too_near": 3e-3}
+    text = " ".join(stress_told.worst(told, {}))
+    for part in (
+        "it rises further towards the clamp and speeds beyond the sweep",
+        "Between any two instants of the revolutions kept the alternating stress there is 30 MPa.",
+        "stands out of those around it by 50 %: that is the mesh's",
+        "Down to 3.05 mm from the clamp: alternating 30 MPa ≥3%, margin 17 ≥5%.",
+        "nearer than 3 mm, half the thickness: raise stress.away_mm",
+    ):
+        assert part in text
+    fillet = {**told, "root": "fillet", "away_m": 0.0}
+    bare = {name: of for name, of in row.items() if name not in ("margin", "cycles")}
+    text = " ".join(stress_told.worst({**fillet, "speeds": [bare]}, {}))
+    assert "(local, with the fillet, but for its edge)" in text and "margin" not in text[:250]
+    assert "1e7" not in text
+    assert "local, with the fillet, 9 mm" in stress_told.where(fillet | {"away_m": 9e-3})
 
 
 def test_an_error_known_in_part_is_at_least_so_large(summed):

@@ -20,8 +20,9 @@ from geometry.tetrahedra import exterior
 from rom.model import Rom
 from rom.polynomial import evaluate
 from rom.reconstruct import Basis
+from simulate.marching import WITH_RESULT
 from workflow.explore.page import LARGEST
-from workflow.stress import Decomposition, motion, stresses
+from workflow.shapes import Shapes, motion, stresses
 
 MPA = 1e-6
 SHAPES = 6  # of the motion at all speeds
@@ -50,7 +51,8 @@ def moving(
             f"{mesh}: its surface has {len(nodes)} corner nodes; allowed on a page are {LARGEST}: "
             "take the scene out of `explore`, or a coarser mesh"
         )
-    moved = motion(sweep, rom.M, SHAPES)
+    states = sweep["motion"].where(sweep["status"].isin(WITH_RESULT)).values.astype(float)
+    moved = motion(states, rom.M, SHAPES)
     sigma = MPA * stresses(solid, basis, moved.shapes, blade.prestress)[:, :, nodes]
     order = dofs_at(basis.coordinates, solid.free_coordinates()).ravel()
     displaced = map(solid.field, (basis.T @ moved.shapes)[order].T)
@@ -58,14 +60,14 @@ def moving(
         "points": points[nodes],
         "triangles": numbered.reshape(-1, 3).astype(float),
         "shapes": np.array([u.x.array.reshape(-1, 3)[nodes] for u in displaced]),
-        "a": moved.a,
+        "a": states @ moved.onto,
         "static": sigma[:, 0],
         "of_shapes": evaluate(sigma, 0.5)[1:],
     }
     return _facts(moved, sweep, rom), arrays | _liner(sweep, rom)
 
 
-def _facts(moved: Decomposition, sweep: xr.Dataset, rom: Rom) -> dict[str, Any]:
+def _facts(moved: Shapes, sweep: xr.Dataset, rom: Rom) -> dict[str, Any]:
     """Share missed by the shapes at each speed; times of states in a revolution; top speed."""
     time = sweep["motion_time"].values
     return {

@@ -8,8 +8,10 @@ from matplotlib.figure import Figure
 
 from fem.fatigue import MEGA, allowed
 from geometry.blade import Fatigue
+from simulate.scene import GROWING
 from simulate.sweeps.peak import Peak
 from simulate.sweeps.plain import order_name
+from workflow import stress_told
 from workflow.figures import style
 
 POINTS = 401  # of the line
@@ -33,6 +35,7 @@ def draw(stress: Mapping[str, Any], answers: Mapping[str, Any]) -> Figure:
     }
     drawn, (whole, near) = style.subplots(style.DOUBLE, 2.8, 1, 2, letters=True)
     stresses = np.array([*places.values()]).reshape(-1, 2).T
+    grow = np.array([row["trend"] == GROWING for row in rows.values()], bool)
     whole.plot(
         mean,
         allowed(MEGA * mean, fatigue) / MEGA,
@@ -40,7 +43,10 @@ def draw(stress: Mapping[str, Any], answers: Mapping[str, Any]) -> Figure:
         label=f"{fatigue.line.capitalize()} line, and yield",
     )
     for axes in (near, whole):
-        axes.plot(*stresses, "o", color=style.GREY, markersize=2.5, label="each speed")
+        axes.plot(*stresses[:, ~grow], "o", color=style.GREY, markersize=2.5, label="each speed")
+        if grow.any():
+            look = {"color": style.GREY, "markersize": 3.5, "label": "still grows: at least"}
+            axes.plot(*stresses[:, grow], "^", **look)
         axes.margins(0.12)  # for the names of peaks
         axes.set(xlabel="mean stress (MPa)", ylabel="alternating stress (MPa)", ylim=(0, None))
     least = min((row["margin"] for row in rows.values()), default=np.inf)
@@ -51,7 +57,10 @@ def draw(stress: Mapping[str, Any], answers: Mapping[str, Any]) -> Figure:
         if rows[peak.Omega_c]["margin"] < NAMED * least:
             style.note(near, place, order_name(peak.k), (4, 3))
     style.legend(drawn, "lower center", ncols=3)
+    at_most = " at most" * bool(grow.any())
     drawn.suptitle(
-        f"scene {stress['scene']}, blade {stress['blade']}: least margin {least:.3g}", fontsize=8
+        f"scene {stress['scene']}, blade {stress['blade']}: least margin of {len(rows)} of "
+        f"{len(stress['speeds'])} speeds {least:.3g}{at_most}\n{stress_told.where(stress)}",
+        fontsize=8,
     )
     return drawn

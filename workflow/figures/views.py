@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from types import MappingProxyType
 from typing import Annotated, Any
 
 import meshio
@@ -18,6 +19,7 @@ from workflow.figures import style
 PIXELS = (900, 1100)  # of one blade, before cropping
 UP = (1, 0, 0)  # the radius
 LINE, BAR, NAMES = 0.16, 0.75, 0.4  # in: a line of a title, the colour bar, names above the tip
+BESIDE = {"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.8}  # a mark's text
 MARGIN = 1.5  # height of the picture over the blade's largest dimension
 
 
@@ -121,13 +123,15 @@ def gallery(
     width: float,
     names: Mapping[str, NDArray[np.float64]],
     heading: str,
+    marked: Mapping[str, Mapping[str, NDArray[np.float64]]] = MappingProxyType({}),
     **bar: Any,
 ) -> Figure:
     """Pictures side by side under a heading; ``bar``: arguments of the colour bar below.
 
     Each of ``rows`` is a title and the displacement, values and view of a picture; ``look`` are the
-    colours, limits and light of all; ``names`` are written outside their points (3,), m. Margins
-    empty in all pictures are cut off, so that their scale remains the same.
+    colours, limits and light of all; ``names`` are written outside their points (3,), m; those
+    that are ``marked``, by title, beside a ring at theirs. Margins empty in all pictures are cut
+    off, so that their scale remains the same.
     """
     colours, limits, _ = look
     images = [picture(grid, moved, values, view, *look) for _, moved, values, view in rows]
@@ -148,6 +152,12 @@ def gallery(
             style.note(
                 axes, tuple(pixel), name, (7 * away[0], -7 * away[1]), ha="center", va="center"
             )
+        for name, point in marked.get(title, {}).items():
+            pixel = pixels(grid, view, point[None])[0] - (seen[1].start, seen[0].start)
+            axes.plot(*pixel, "o", color=style.BLACK, markerfacecolor="none", markersize=5)
+            inwards = -1 if pixel[0] > across / 2 else 1
+            look = {"ha": "left" if inwards > 0 else "right", "bbox": BESIDE}
+            style.note(axes, tuple(pixel), name, (5 * inwards, 5), **look)
     mappable = ScalarMappable(Normalize(*limits), colours)
     drawn.colorbar(mappable, ax=list(panels), location="bottom", **bar)
     drawn.suptitle(heading, fontsize=8, linespacing=1.3)

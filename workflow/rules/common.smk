@@ -412,12 +412,17 @@ def sweep_before(wildcards):
     return f"results/{scene.blade}/{scene.start.scene}/sweep.nc" if scene.start else []
 
 
-def stress_of_page(wildcards):
-    """The stresses of a scene that keeps its motion, for its page; without gaps at rest."""
-    if SCENES[wildcards.scene].gaps.vary:
-        raise WorkflowError(refused_at_rest(wildcards.scene))
+def stress_of_scene(wildcards):
+    """The stresses of a scene that keeps its motion."""
     path = f"results/{wildcards.blade}/{wildcards.scene}/stress.json"
     return path if keeps_motion(SCENES[wildcards.scene]) else []
+
+
+def stress_of_page(wildcards):
+    """The same for its page; without gaps at rest."""
+    if SCENES[wildcards.scene].gaps.vary:
+        raise WorkflowError(refused_at_rest(wildcards.scene))
+    return stress_of_scene(wildcards)
 
 
 def sweep_with_motion(wildcards):

@@ -40,7 +40,7 @@ rule stress:
     params:
         run="workflow.stress:write",
         blade=blade_file,
-        uses=blade_uses("material", "prestress", "fatigue", *SOURCES),
+        uses=blade_uses("material", "prestress", "fatigue", "stress", *SOURCES),
     message:
         "Mean and alternating stress of scene {wildcards.scene}"
     script:

@@ -6,6 +6,7 @@ rule answers:
         check=check_of_scene,
         mesh_error=known_mesh_error,
         start=sweep_before,
+        stress=stress_of_scene,
         sweep="results/{blade}/{scene}/sweep.nc",
     output:
         json="results/{blade}/{scene}/answers.json",
