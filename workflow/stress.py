@@ -81,6 +81,7 @@ def write(
     fields = {"away from clamp and contact": stressed.airfoil[0].astype(float)}
     for speed in sorted({*(peak.index for peak in asked(sweep, rom)), most} & found.keys()):
         rows[speed] |= stressed.around(found[speed])
+        rows[speed] |= stressed.nearer(found[speed]) if speed == most else {}
         rpm, everywhere = f"{rows[speed]['rpm']:.0f} rpm", stressed.everywhere(found[speed])
         fields |= {f"{LABELS[label]}, {rpm}": everywhere[label] for label in everywhere}
     cells, points = grid_of(solid)
@@ -206,8 +207,7 @@ class Stressed:
         The end of the airfoil towards which they `rises` further, if any; by how much the node
         `stands_out` of those around it; relative errors by the `mesh`; the alternating stress
         `between` any two instants of all revolutions; its stress over the reduced displacements,
-        `sigma`, by which that of other runs is known; and the worst node `nearer` to a sharp clamp,
-        up to half the distance, where the mesh resolves it.
+        `sigma`, by which that of other runs is known.
         """
         near = around(self.solid, found.node)
         of_near = self.everywhere(found, near, float)
@@ -224,7 +224,6 @@ class Stressed:
             "mesh": self.mesh_errors(found),
             "between": found.stress.numbers(of_all)["alternating"],
             "sigma": np.vstack([sigma[:1], self.shapes.onto @ sigma[1:]]).tolist(),
-            **self.nearer(found),
         }
 
     def mesh_errors(self, found: Found) -> dict[str, float]:
@@ -246,7 +245,7 @@ class Stressed:
         }
 
     def nearer(self, found: Found) -> dict[str, Any]:
-        """The worst node up to half the thickness from a sharp clamp, if the mesh resolves it."""
+        """The worst node `nearer` to a sharp clamp, up to half the distance, if it is resolved."""
         if self.blade.stress.root != "sharp" or self.blade.stress.away_mm:
             return {}
         node = self.near_clamp[reserve(self.everywhere(found, self.near_clamp)).argmin()]

@@ -34,7 +34,7 @@ class Response:
     @classmethod
     def read(cls, sweep: str | Path, rom: str | Path | None = None) -> Self:
         """Read the sweep of one scene, and a reduced model."""
-        return cls(load(sweep), Rom.load(rom) if rom else None)
+        return cls(load(sweep, leave=["strained"]), Rom.load(rom) if rom else None)
 
     @cached_property
     def scene(self) -> Scene:
