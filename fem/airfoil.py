@@ -26,12 +26,11 @@ def airfoil(solid: Solid, asked: Stress) -> tuple[NDArray[np.bool_], float]:
     SettingsError
         When there are none.
     """
-    if asked.root == "fillet" and asked.away_mm is None:
-        settled = away(solid, 0.0)
-        settled[solid.V.dofmap.list[cells_of(solid, np.flatnonzero(solid.clamped))]] = False
-        return settled, 0.0
-    distance = 1e-3 * asked.away_mm if asked.away_mm else thickness(solid)
+    sharp = asked.root == "sharp"
+    distance = 1e-3 * asked.away_mm if asked.away_mm else thickness(solid) if sharp else 0.0
     settled = away(solid, distance)
+    if not sharp and not asked.away_mm:
+        settled[solid.V.dofmap.list[cells_of(solid, np.flatnonzero(solid.clamped))]] = False
     if not settled.any():
         raise SettingsError(
             "no node of the mesh is farther from the clamp, and away from the contact",

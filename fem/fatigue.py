@@ -104,12 +104,13 @@ def damage(signal: NDArray[np.float64], fatigue: Fatigue) -> float:
 
     By rainflow (ASTM E1049), a half cycle as half of one. A cycle of amplitude S and mean m takes
     1/N, N = ``ENDURED`` (S_a(m)/S)^k, S_a the line of ``allowed`` and k ``slope_k``: one slope,
-    also below the endurance (elementary rule of Miner).
+    also below the endurance (elementary rule of Miner). None takes more than all.
     """
     cycles = ((span / 2, mean, n) for span, mean, n, *_ in rainflow.extract_cycles(signal) if span)
     S, mean, counts = np.array([*cycles]).reshape(-1, 3).T
     ratio = np.divide(S, limit := allowed(mean, fatigue), out=np.full_like(S, inf), where=limit > 0)
-    return float((counts * ratio ** known(fatigue.slope_k, "slope_k")).sum() / ENDURED)
+    shares = ratio ** known(fatigue.slope_k, "slope_k") / ENDURED
+    return float(counts @ np.minimum(shares, 1.0))
 
 
 def allowed(mean: NDArray[np.float64], fatigue: Fatigue) -> NDArray[np.float64]:
@@ -144,5 +145,9 @@ def numbers(mean: Any, alternating: Any, fatigue: Fatigue | None) -> dict[str, A
 
 
 def reserve(numbers: Mapping[str, Any]) -> Any:
-    """What is least where a motion is worst: the margin, else the alternating stress, negative."""
-    return numbers.get("margin", -numbers["alternating"])
+    """What is least where a motion is worst: the margin, else the alternating stress, negative.
+
+    So too where there is no margin left, that is 0.
+    """
+    left = numbers.get("margin", 0.0)
+    return np.where(np.greater(left, 0.0), left, -numbers["alternating"])

@@ -17,13 +17,14 @@ from numpy.linalg import norm
 from numpy.typing import NDArray
 
 from fem.airfoil import airfoil, thickness
-from fem.fatigue import ENDURED, FIVE, largest_change, numbers, reserve
+from fem.fatigue import ENDURED, FIVE, LEAST, largest_change, numbers, reserve
 from fem.fields import around, away, disagreement, dofs_at, grid_of, save_vtu
 from fem.node_stress import NodeStress
 from fem.solid import Solid, read_solid
 from fem.worst_node import cycles, worst
 from geometry.blade import RPM, Blade
 from geometry.frame import to_file
+from geometry.project import ProvenanceError
 from rom.model import Rom
 from rom.polynomial import evaluate
 from rom.reconstruct import Basis
@@ -77,9 +78,10 @@ def write(
                 k = at.stress.order(with_rotation(last @ shapes.onto))
                 seconds = 2 * np.pi * ENDURED / (k * Omega)
                 rows[-1] |= {"cycles": k * ceil(rounds), "endurance_s": seconds}
-    most = min(found, key=lambda speed: reserve(rows[speed]), default=None)
+    moving = [speed for speed in found if rows[speed]["alternating"] > LEAST]
+    most = min(moving, key=lambda speed: reserve(rows[speed]), default=None)
     fields = {"away from clamp and contact": stressed.airfoil[0].astype(float)}
-    for speed in sorted({*(peak.index for peak in asked(sweep, rom)), most} & found.keys()):
+    for speed in sorted({*(peak.index for peak in asked(sweep, rom)), most} & {*moving}):
         rows[speed] |= stressed.around(found[speed])
         rows[speed] |= stressed.nearer(found[speed]) if speed == most else {}
         rpm, everywhere = f"{rows[speed]['rpm']:.0f} rpm", stressed.everywhere(found[speed])
@@ -101,6 +103,8 @@ def revolutions(sweep: Sweep) -> list[Revolutions]:
     Those that strain the blade most, at some instants, and where it is none of them the last.
     """
     names = ("status", "rounds", "motion", "strained_round", "strained")
+    if missing := {*names} - {*sweep.variables}:
+        raise ProvenanceError(f"sweep.nc has no {', '.join(sorted(missing))}: make the sweep anew")
     runs = []
     for status, rounds, of_last, which, strained in zip(
         *(sweep[name].values for name in names), strict=True
@@ -237,16 +241,17 @@ class Stressed:
         u, along = self.basis.static(found.Omega)[self.order], (self.basis.T @ shapes)[self.order].T
         off = disagreement(self.solid, u, along, self.blade.prestress, found.node)
         own = found.stress.numbers(found.a)
-        mean, alternating = abs(own["mean_stress"]) + off[0] + off[1], own["alternating"] + off[2]
-        higher = numbers(mean, alternating, self.blade.fatigue)
+        mean = np.copysign(abs(own["mean_stress"]) + off[0] + off[1], own["mean_stress"])
+        higher = numbers(mean, own["alternating"] + off[2], self.blade.fatigue)
         return {
-            name: float(abs(value - abs(own[name])) / max(abs(own[name]), NONE))
+            name: float(abs(value - own[name]) / max(abs(own[name]), NONE))
             for name, value in higher.items()
         }
 
     def nearer(self, found: Found) -> dict[str, Any]:
         """The worst node `nearer` to a sharp clamp, up to half the distance, if it is resolved."""
-        if self.blade.stress.root != "sharp" or self.blade.stress.away_mm:
+        asked = self.blade.stress
+        if asked.root != "sharp" or asked.away_mm or not len(self.near_clamp):
             return {}
         node = self.near_clamp[reserve(self.everywhere(found, self.near_clamp)).argmin()]
         other = self.found(found.Omega, node, found.number, found.revolutions)

@@ -12,6 +12,7 @@ from workflow.markdown import Number, percent
 
 STRESS = ("mean_stress", "alternating", "margin")  # numbers of ``stress.json``, there too
 COUNTS = ("cycles", "endurance_s")  # those of its cycles, which have no uncertainty
+ALL = "all"  # of what is not known: of all numbers
 RISES = "↑"
 STANDS_OUT = 1.25  # alternating stress of a node over the largest around it: no smooth field
 EARLIER = 1.005  # largest change between any two instants over that of one revolution: it is told
@@ -50,26 +51,27 @@ def where(stress: Mapping[str, Any]) -> str:
     return f"nominal, of the airfoil {away}; the concentration factor of the root is not included"
 
 
-def worst(stress: Mapping[str, Any], errors: Mapping[str, float | None]) -> list[str]:
+def worst(stress: Mapping[str, Any], answer: Mapping[str, Any] | None) -> list[str]:
     """Lines on the worst speed, with its node, and what its numbers are worth.
 
-    ``errors``: of the numbers there in SI, where that speed is a peak.
+    ``answer``: of that speed, as of ``workflow.summary.PeakRow``, where there is one.
     """
-    known = [row for row in stress["speeds"] if "alternating" in row]
-    if not known:
+    rows = stress["speeds"]
+    known = [row for row in rows if "alternating" in row]
+    if stress["worst"] is None:
         return []
     row = next(row for row in known if row["speed_over_f1"] == stress["worst"])
-    of, ends = _numbers(row, errors), (known[0], known[-1])
+    of, ends = _numbers(row, answer), (rows[0], rows[-1])
     at = ", ".join(f"{x:.4g}" for x in row["at"])
-    rises = [row["rises"]] * bool(row["rises"]) + ["speeds beyond the sweep"] * (row in ends)
-    further = f"; it rises further towards {' and '.join(rises)}" if rises else ""
+    rises = f"; it rises further towards {row['rises']}" if row["rises"] else ""
+    beyond = "; it may rise further beyond the sweep" * (len(rows) > 1 and row in ends)
     left_out = _left_out(stress["speeds"], known)
     margin = f", {'margin' if stress['root'] == 'fillet' else 'margin of the airfoil'} "
     return [
         f"Worst stress ({where(stress)}): {row['rpm']:.0f} rpm, "
         f"revolution {row['revolution']}, x, y, z = {at} {row['unit']}: mean {of['mean_stress']}, "
         f"alternating {of['alternating']}{margin + of['margin'] if 'margin' in of else ''}"
-        f"{further}. {left_out}",
+        f"{rises}{beyond}. {left_out}",
         *_cycles(row),
         *_doubts(row, stress),
     ]
@@ -77,23 +79,23 @@ def worst(stress: Mapping[str, Any], errors: Mapping[str, float | None]) -> list
 
 def shown(row: Mapping[str, Any], name: str) -> str:
     """A number of a told speed, to the digits that its error by the mesh allows."""
-    return _number(row, name, {})[0]
+    return _number(row, name, None)[0]
 
 
-def _number(
-    row: Mapping[str, Any], name: str, errors: Mapping[str, float | None]
-) -> tuple[str, str]:
-    """The number and its ±; without one of ``errors`` that by the mesh is known alone."""
+def _number(row: Mapping[str, Any], name: str, answer: Any) -> tuple[str, str]:
+    """The number and its ±; without an ``answer`` that by the mesh is known alone."""
     scale = 1.0 if name == "margin" else MPA
+    errors, unknown = (answer["errors"], answer["unknown"]) if answer else ({}, {ALL: ["runs"]})
     error = errors.get(name, abs(row[name]) * row["mesh"][name])
-    number = Number(scale * row[name], error and scale * error, least=name not in errors)
+    least = name not in errors or bool(unknown[ALL])
+    number = Number(scale * row[name], error and scale * error, least=least)
     return bound(name, row["trend"]) + number.shown, number.share
 
 
-def _numbers(row: Mapping[str, Any], errors: Mapping[str, float | None]) -> dict[str, str]:
-    """The numbers of the worst speed by name."""
+def _numbers(row: Mapping[str, Any], answer: Any) -> dict[str, str]:
+    """The numbers of a speed by name."""
     units = dict.fromkeys(STRESS, " MPa") | {"margin": ""}
-    texts = {name: _number(row, name, errors) for name in STRESS if name in row}
+    texts = {name: _number(row, name, answer) for name in STRESS if name in row}
     return {name: f"{shown}{units[name]} {share}" for name, (shown, share) in texts.items()}
 
 
@@ -118,9 +120,10 @@ def _doubts(row: Mapping[str, Any], stress: Mapping[str, Any]) -> list[str]:
     """Why the number may be another one."""
     lines, alternating = [], row["alternating"]
     if row["between"] > EARLIER * alternating:
+        shown_there = shown(row | {"alternating": row["between"]}, "alternating")
         lines.append(
             f"Between any two instants of the revolutions kept the alternating stress there is "
-            f"{Number(MPA * row['between'])} MPa."
+            f"{shown_there} MPa."
         )
     if row["stands_out"] > STANDS_OUT:
         lines.append(
@@ -128,7 +131,7 @@ def _doubts(row: Mapping[str, Any], stress: Mapping[str, Any]) -> list[str]:
             f"{percent(row['stands_out'] - 1)}: that is the mesh's."
         )
     if nearer := row.get("nearer"):
-        of = _numbers(nearer | {"trend": row["trend"]}, {})
+        of = _numbers(nearer | {"trend": row["trend"]}, None)
         margin = f", margin {of['margin']}" if "margin" in of else ""
         lines.append(
             f"Down to {500 * stress['away_m']:.3g} mm from the clamp: alternating "

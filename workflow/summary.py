@@ -18,11 +18,10 @@ from simulate.scene import DYING_OUT, GROWING, TRENDS
 from simulate.sweeps.plain import NO_CROSSING, Course, numbers_of
 from workflow import margins, markdown, stress_told
 from workflow.markdown import Number
+from workflow.stress_told import ALL
 
 if TYPE_CHECKING:  # a slow import, which Snakemake does without
     from simulate.sweeps.peak import Peak
-
-ALL = "all"  # numbers of a peak
 
 
 class Column(NamedTuple):
@@ -86,7 +85,7 @@ MEANING = {  # of the columns
     "eighth of the chord",
     "torque": "mean of the revolutions, against the rotation",
     "mean stress, alternating": "of the largest change of stress between two instants of a "
-    "revolution, the worst of the last one and of three that strain the blade most, at the node "
+    "revolution, the worst of the last one and of those that strain the blade most, at the node "
     "away from clamp and contact with the least margin (without `fatigue` of the blade with the "
     "largest alternating stress); of a growing motion the alternating stress is more (>)",
     stress_told.RISES: "the stress rises further, towards the part of the blade that is left out",
@@ -122,7 +121,7 @@ PARTS = {  # of uncertainties, that may not be known
 # Values of a scene taken from its answers as they are.
 COPIED = (
     *("scene", "blade", "f1_Hz", "gap_m", "dofs", "status", "reasons", "ends", "swept", "free"),
-    *("checks", "model_error", "no_torque", "mu_crit", "sweep_s", "errors_of_worst"),
+    *("checks", "model_error", "no_torque", "mu_crit", "sweep_s"),
 )
 
 COURSE = {  # of ``Course``: unit and its scale from SI
@@ -194,8 +193,12 @@ def _scene(
         row["speed_over_f1"]: {key: row[key] for key in row.keys() - OF_STATES}
         for row in (stress["speeds"] if stress else [])
     }
-    found = [Peak.of(peak) for peak in results["peaks"]]
-    rows = [_row(results, peak, stress_by_speed.get(peak.Omega_c, {})) for peak in found]
+    found, worst = (map(Peak.of, results[name]) for name in ("peaks", "worst"))
+    found, worst = [*found], [*worst]
+    rows, of_worst = (
+        [_row(results, peak, stress_by_speed.get(peak.Omega_c, {})) for peak in peaks]
+        for peaks in (found, worst)
+    )
     rub_peaks = [
         margins.Critical(
             what=f"rub peak ({row['course'].get('trend')})" if moves(row) else "rub peak",
@@ -212,9 +215,10 @@ def _scene(
     ]
     return {
         **{key: results[key] for key in COPIED},
-        "answers_s": sum(peak.seconds for peak in found),
-        "runs": sum(peak.runs for peak in found),
+        "answers_s": sum(peak.seconds for peak in [*found, *worst]),
+        "runs": sum(peak.runs for peak in [*found, *worst]),
         "rows": rows,
+        "worst": of_worst,
         "stress": stress and {**stress, "speeds": [*stress_by_speed.values()]},
         "operating": campbell,
         "margins": margins.rows(
@@ -462,9 +466,8 @@ def notes(scene: Mapping[str, Any]) -> list[str]:
     """Crossings, ends of the sweep, operating lines, unknown parts, cost of uncertainties."""
     lines = [*_without_peaks(scene), *crossings_and_ends(scene), *_operating_lines(scene)]
     if scene["stress"]:
-        of_peaks = {row["over_f1"]: row["errors"] for row in scene["rows"]}
-        errors = scene["errors_of_worst"] or of_peaks.get(scene["stress"]["worst"], {})
-        lines += stress_told.worst(scene["stress"], errors)
+        rows = {row["over_f1"]: row for row in [*scene["worst"], *scene["rows"]]}
+        lines += stress_told.worst(scene["stress"], rows.get(scene["stress"]["worst"]))
     numbers = {name for row in scene["rows"] for name in row["values"]}
     missing = {part for row in scene["rows"] for parts in row["unknown"].values() for part in parts}
     unknown = [PARTS[part] for part in PARTS if part in missing]

@@ -22,6 +22,12 @@ def at_node(stress: Mapping[str, Any], speed: int) -> NodeStress | None:
     return sigma and NodeStress(np.array(sigma), fatigue and Fatigue.model_validate(fatigue))
 
 
+def mesh_errors(stress: Mapping[str, Any], speed: int) -> Numbers:
+    """Relative errors by the mesh there; that of the damage follows from the margin's."""
+    errors, k = stress["speeds"][speed]["mesh"], (stress["fatigue"] or {}).get("slope_k")
+    return errors | ({"damage": (1 - errors["margin"]) ** -k - 1} if k else {})
+
+
 def through(at: NodeStress | None, T: NDArray[np.float64] | None) -> NodeStress | None:
     """The same over displacements u' (n',) of another model, u = T u'; the same without T."""
     if at is None or T is None:

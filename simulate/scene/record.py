@@ -73,9 +73,9 @@ class Record(Settings):
         default=None,
         ge=1,
         le=10,
-        description="For animations and stresses: states of the last revolution and of those that "
-        "strain the blade most, eight in each period of this natural mode; and the range of u_r at "
-        "xi = 1/16 in sixteenths of each revolution",
+        description="For animations and stresses: states of the last revolution, eight in each "
+        "period of this natural mode, and at instants of those that strain the blade most; and the "
+        "range of u_r at xi = 1/16 in sixteenths of each revolution",
     )
     gauges: list[Gauge] | None = Field(
         default=None,

@@ -463,9 +463,9 @@ def course(run: xr.Dataset) -> Course:
         return {"trend": run["trend"].item()}
     worn = run["worn"].values[: int(run["rounds"])]
     place: Course = {"place": run["place"].item()} if "place" in run else {}
-    if run["trend"].item() == GROWING:
-        counted = slice(scene_of(run).casing.changes_until, len(worn))
-        swing = np.diff(run["extremes"].values[counted], axis=1)[:, 0]
+    if run["trend"].item() == GROWING and not _goes_on(scene_of(run)):
+        swing = np.diff(run["extremes"].values[: len(worn)], axis=1)[:, 0]
+        swing = swing[scene_of(run).casing.changes_until :]
         place |= {"grows": further(swing), "grows_in": len(swing)}
     return place | {
         "trend": run["trend"].item(),
@@ -473,6 +473,11 @@ def course(run: xr.Dataset) -> Course:
         "largest_round": run["largest_round"].item(),
         "wears": float(worn[-ceil(len(worn) / 4) :].mean()),
     }
+
+
+def _goes_on(scene: Scene) -> bool:
+    """Whether runs go on from others: it is not known when their casing still changed."""
+    return scene.speeds.in_turn or scene.start is not None
 
 
 def over_f1(Omega: NDArray[np.float64], rom: Rom) -> NDArray[np.float64]:

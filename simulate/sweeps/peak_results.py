@@ -40,7 +40,7 @@ from simulate.errors.neighbours import ITSELF, TWIN, raised
 from simulate.errors.observables import Numbers, numbers
 from simulate.errors.run import Case, as_long
 from simulate.errors.signals import gaps_at_ends, leading_gap, leading_wear, lobe_count
-from simulate.errors.stressed import OF_STRESS, at_node, stress_of, through
+from simulate.errors.stressed import OF_STRESS, at_node, mesh_errors, stress_of, through
 from simulate.marching import SENSITIVE_FROM, WITH_RESULT, prepare
 from simulate.scene import LEADING, OF_LAST_ROUNDS, Scene
 from simulate.sweeps.before import before
@@ -84,7 +84,7 @@ def results(
             case = case_of(runs, scene, rom, peak)
             case = replace(case, start=start_at(case.setup.Omega))
             if peak.k and not peak.at_end:
-                peak = _with_rise(peak, case, runs)
+                peak = _with_rise(peak, case, runs, stress)
             peak = _with_errors(peak, case, model_error, stress)
             if second_order is not None:
                 peak = _with_second_order(peak, case, second_order, runs.attrs["gap_m"])
@@ -115,7 +115,7 @@ def of_sweep(
 ) -> dict[str, Any]:
     """Results of a sweep with its names and units, as plain values for JSON.
 
-    ``worst``: as of ``worst_stressed``, of whose results the errors are told.
+    ``worst``: that of ``worst_stressed``, with its results.
     """
     return {
         "scene": runs.attrs.get("name", ""),
@@ -136,7 +136,7 @@ def of_sweep(
         "reasons": sorted({*runs["reason"].values.astype(str)} - {""}) if "reason" in runs else [],
         "ends": ends(runs),
         "peaks": [peak.plain() for peak in peaks],
-        "errors_of_worst": next((peak.errors for peak in worst), None),
+        "worst": [peak.plain() for peak in worst],
     }
 
 
@@ -231,22 +231,28 @@ def _response(runs: xr.Dataset) -> np.ndarray:
     return runs["ledger"].sel(energy="casing").values
 
 
-def _with_rise(peak: Peak, case: Case, runs: xr.Dataset) -> Peak:
+def _with_rise(peak: Peak, case: Case, runs: xr.Dataset, stress: Mapping[str, Any] | None) -> Peak:
     """The peak with the rise of its amplitude to the top between the speeds, by two runs.
 
-    Halfway to its neighbours in the sweep. A run that goes on from another is there at the speeds
-    of the sweep alone: then the rise is that through the peak and its neighbours.
+    And of its alternating stress, by which the margin falls. Halfway to its neighbours in the
+    sweep. A run that goes on from another is there at the speeds of the sweep alone: then the rise
+    is that through the peak and its neighbours.
     """
     three = slice(peak.index - 1, peak.index + 2)
     Omega, of = runs["speed"].values[three].copy(), Responses.of(runs, case.rom)
     along = of.series(known(peak.k, "k"), peak.place)[three].copy()
+    at, alternating = at_node(stress, peak.index) if stress else None, np.full(3, nan)
     if case.start is None:
         Omega[::2] = (Omega[::2] + Omega[1]) / 2
         for side in (0, 2):
             setup = prepare(case.scene, case.rom, Omega[side], case.steps_of_a_turn)
-            values = at_peak(replace(case, setup=setup), peak)
+            values = at_peak(replace(case, setup=setup), peak, at)
             along[side] = values.get("amplitude", nan) / leading_gap(runs)
+            alternating[side] = values.get("alternating", nan)
     parts = {"speeds": {"amplitude": rise(Omega, along)}}
+    if stress and at:
+        alternating[1] = stress["speeds"][peak.index]["alternating"]
+        parts["speeds"] |= dict.fromkeys(("alternating", "margin"), rise(Omega, alternating))
     return replace(peak, parts=parts, runs=0 if case.start else 2)
 
 
@@ -287,7 +293,7 @@ def _with_errors(
     if peak.k and peak.at_end:
         parts["speeds"] = {"amplitude": inf}
     if stress and at:
-        parts["stress"] = stress["speeds"][peak.index]["mesh"]
+        parts["stress"] = mesh_errors(stress, peak.index)
     chaotic = _largest(parts["twin"]) > SENSITIVE_FROM
     return replace(
         peak,
@@ -320,7 +326,7 @@ def _with_second_order(peak: Peak, case: Case, known: SecondOrder, gap: float) -
     name, setup = "amplitude" if of_higher else "displacement", case.setup
     motion = peak.numbers.get(name, nan)
     place = peak.place if of_higher else peak.course.get("place", LEADING)
-    if place not in EDGES:
+    if place not in EDGES or not motion:
         return peak
     of_peak = setup.Omega, peak.k, place, motion
     second, axial = known.at_peak(case.rom, case.scene.casing, *of_peak)

@@ -10,13 +10,15 @@ from scipy.spatial import cKDTree
 from fem.airfoil import airfoil
 from fem.fatigue import FIVE, largest_cycle, margin, numbers, reserve, von_mises
 from fem.fields import TENSOR, fields
+from fem.node_stress import NodeStress
 from fem.solid import read_solid
 from fem.worst_node import cycles, worst
 from geometry.blade import Fatigue
+from geometry.project import ProvenanceError
 from rom.coarser import coarser
 from rom.reconstruct import Basis
 from simulate.errors.model_errors import ModelError
-from simulate.errors.stressed import at_node, stress_of, through, with_rotation
+from simulate.errors.stressed import at_node, mesh_errors, stress_of, through, with_rotation
 from simulate.scene import GROWING, Scene
 from simulate.sweeps.over_speeds import as_sweep, at_speeds
 from simulate.sweeps.peak_results import case_of, results, to_march, worst_stressed
@@ -295,4 +297,33 @@ def test_bending_rises_further_towards_a_sharp_clamp(
     assert nearer["alternating"] == pytest.approx(
         stressed.everywhere(found, near, float)["alternating"].max(), rel=0.05
     )
-    assert stressed.nearer(found) == {} or errors["alternating"] < job.AGREE
+    resolved = nearer["mesh"]["alternating"] <= job.AGREE
+    assert ("nearer" in stressed.nearer(found)) == resolved
+    small = mesh_errors({"speeds": [{"mesh": errors}], "fatigue": {"slope_k": 9}}, 0)
+    assert small["damage"] == pytest.approx((1 - errors["margin"]) ** -9 - 1)
+    compressed = NodeStress(-found.stress.sigma, blade.fatigue)
+    pressed = job.Found(found.Omega, found.node, 2, found.revolutions, compressed)
+    assert compressed.numbers(found.a)["mean_stress"] < 0  # it earns no credit, and takes none
+    errors = stressed.mesh_errors(pressed)
+    assert errors["margin"] == pytest.approx(1 - 1 / (1 + errors["alternating"]), rel=1e-6)
+
+
+def test_without_motion_there_is_no_worst_speed(
+    coarse_blade, coarse_mesh, coarse_rom, basis_file, sweep
+):
+    """And a margin that is used up ranks by the alternating stress."""
+    still = sweep.assign(motion=0 * sweep["motion"], strained=0 * sweep["strained"])
+    told, _ = write(coarse_blade, coarse_mesh, coarse_rom, basis_file, still)
+    assert told["worst"] is None and not any("mesh" in row for row in told["speeds"])
+    assert reserve({"margin": 0.0, "alternating": 3.0}) == -3.0
+    left = reserve({"margin": np.array([2.0, 0.0]), "alternating": np.array([3.0, 4.0])})
+    assert left.tolist() == [2.0, -4.0]
+
+
+def test_a_mesh_without_nodes_near_the_clamp_has_none_nearer(coarse_blade, sweep, monkeypatch):
+    """And a sweep of before is to be made anew."""
+    monkeypatch.setattr(job.Stressed, "near_clamp", np.array([], int))
+    assert job.Stressed(coarse_blade, None, None, None, None).nearer(None) == {}
+    old = sweep.drop_vars(["strained", "strained_round"])
+    with pytest.raises(ProvenanceError, match=r"sweep\.nc has no strained, strained_round"):
+        job.revolutions(old)

@@ -65,7 +65,7 @@ OF = {
     "model_error": {"basis": 1e-4, "mesh": 9e-4},
     "no_torque": None,
     "mu_crit": None,
-    "errors_of_worst": None,
+    "worst": [],
     "peaks": [ANSWER],
 }
 OPERATING = {"lines": {}, "modes": 1, "orders": [4, 5], "excited": {4: "side band"}}
@@ -220,12 +220,16 @@ def test_the_worst_stress_of_all_speeds_is_told_with_its_node(summed):
     assert "this run has 80, and 1e7 take 4e+04 s at that speed" in text
     assert "Between" not in text
     errors = {"mean_stress": 3e7, "alternating": 5e6, "margin": 5.0}
-    assert line.format("±10%", "±20%", "12 ±40%") in summary.terminal(
-        summed(stress=STRESS, errors_of_worst=errors)
-    )
+    own = ANSWER | {"k": None, "Omega_c": 0.3, "errors": errors, "runs": 12}
+    found = summed(stress=STRESS, worst=[own])
+    assert line.format("±10%", "±20%", "12 ±40%") in summary.terminal(found)
+    assert found["scenes"][0]["runs"] == ANSWER.get("runs", 0) + 12
     peak = {"errors": ANSWER["errors"] | errors, "Omega_c": 0.3}
     assert line.format("±10%", "±20%", "12 ±40%") in summary.terminal(summed(peak, stress=STRESS))
-    assert "Worst" not in summary.terminal(summed(stress=STRESS | {"speeds": STRESS["speeds"][4:]}))
+    unknown = summed(stress=STRESS, worst=[own], model_error={"basis": None, "mesh": None})
+    assert line.format("≥10%", "≥20%", "12 ≥40%") in summary.terminal(unknown)
+    still = STRESS | {"worst": None}
+    assert "Worst" not in summary.terminal(summed(stress=still))
 
 
 def test_what_the_worst_stress_is_worth_is_told(summed):
@@ -233,9 +237,12 @@ def test_what_the_worst_stress_is_worth_is_told(summed):
     row = STRESS["speeds"][1] | {"between": 3e7, "stands_out": 1.5}
     row |= {"nearer": WORST | {"alternating": 3e7, "mesh": MESH}}
     told = STRESS | {"speeds": [row], "too_near": 3e-3}
-    text = " ".join(stress_told.worst(told, {}))
+    text = " ".join(stress_told.worst(told, None))
+    ends = {**told, "speeds": [row, STRESS["speeds"][2]]}
+    assert "may rise further beyond the sweep" in stress_told.worst(ends, None)[0]
+    assert "beyond the sweep" not in text  # of one speed
     for part in (
-        "it rises further towards the clamp and speeds beyond the sweep",
+        "it rises further towards the clamp. It is",
         "Between any two instants of the revolutions kept the alternating stress there is 30 MPa.",
         "stands out of those around it by 50 %: that is the mesh's",
         "Down to 3.05 mm from the clamp: alternating 30 MPa ≥3%, margin 17 ≥5%.",
@@ -244,7 +251,7 @@ def test_what_the_worst_stress_is_worth_is_told(summed):
         assert part in text
     fillet = {**told, "root": "fillet", "away_m": 0.0}
     bare = {name: of for name, of in row.items() if name not in ("margin", "cycles")}
-    text = " ".join(stress_told.worst({**fillet, "speeds": [bare]}, {}))
+    text = " ".join(stress_told.worst({**fillet, "speeds": [bare]}, None))
     assert "(local, with the fillet, but for its edge)" in text and "margin" not in text[:250]
     assert "1e7" not in text
     assert "local, with the fillet, 9 mm" in stress_told.where(fillet | {"away_m": 9e-3})
