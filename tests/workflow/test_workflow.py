@@ -241,6 +241,7 @@ ALONE = {
         "draw_stress_scene": 3,
         "draw_haigh_scene": 3,
         "stress": 3,
+        "answers": 3,
         "explore": 2,
         "draw_loads_blade": 1,
         "summary": 1,
