@@ -47,17 +47,6 @@ def von_mises(sigma: NDArray[np.float64]) -> NDArray[np.float64]:
     return norm(sigma @ FIVE.T.astype(sigma.dtype), axis=-1)
 
 
-def largest_cycle(
-    sigma: NDArray[np.float64],
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Mean stress, with its sign, and alternating stress (nodes,) of ``sigma`` (times, nodes, 6).
-
-    Of the two instants of ``largest_change``.
-    """
-    five = np.ascontiguousarray((sigma @ FIVE.T).transpose(1, 2, 0))
-    return mean_and_half(*np.take_along_axis(sigma, largest_change(five)[..., None], axis=0))
-
-
 def mean_and_half(
     one: NDArray[np.float64], other: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -65,7 +65,7 @@ def worst(stress: Mapping[str, Any], answer: Mapping[str, Any] | None) -> list[s
     at = ", ".join(f"{x:.4g}" for x in row["at"])
     rises = f"; it rises further towards {row['rises']}" if row["rises"] else ""
     beyond = "; it may rise further beyond the sweep" * (len(rows) > 1 and row in ends)
-    left_out = _left_out(stress["speeds"], known)
+    left_out = _left_out(rows, known)
     margin = f", {'margin' if stress['root'] == 'fillet' else 'margin of the airfoil'} "
     return [
         f"Worst stress ({where(stress)}): {row['rpm']:.0f} rpm, "

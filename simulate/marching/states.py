@@ -12,15 +12,16 @@ from simulate.marching.status import WITH_RESULT
 PER_PERIOD = 8  # least states in a period of the highest mode that pictures show
 INSTANTS = 256  # of a revolution that strains the blade most: of twice as many those farthest from
 # its mean
-# By which a revolution strains the blade most: largest ranges of the strain energy sum w_i^2 q_i^2
-# and of q_1, largest sum of (w_i range of q_i)^2. The first depends on the mean of a motion, the
-# second misses higher modes, the third adds ranges of different instants.
-MEASURES = ("energy", "mode 1", "ranges")
 
 
 @dataclass(frozen=True)
 class MostStrained:
-    """States of the revolutions of a run that are largest by each of ``MEASURES``, two of each."""
+    """States of the revolutions of a run that strain its blade most, two by each of three measures.
+
+    Range of the strain energy sum w_i^2 q_i^2; range of q_1; sum of (w_i range of q_i)^2. The first
+    depends on the mean of a motion, the second misses higher modes, the third adds ranges of
+    different instants.
+    """
 
     omega: NDArray[np.float64]  # (modes,), rad/s
     every: int  # samples from one state to the next by which revolutions are measured

@@ -145,8 +145,8 @@ def further(swing: NDArray[np.float64]) -> float:
 
     >>> j = np.arange(1, 401)
     >>> swing = 1 - np.exp(-j / 150)
-    >>> round(further(swing), 4), round((1 - np.exp(-800 / 150)) / swing[-1] - 1, 4)
-    (0.0694, 0.0694)
+    >>> round(further(swing), 2), round(float((1 - np.exp(-800 / 150)) / swing[-1] - 1), 2)
+    (0.07, 0.07)
     """
     quarters = np.array([quarter.mean() for quarter in np.array_split(swing, 4)])
     before, last = np.diff(quarters)[1:]

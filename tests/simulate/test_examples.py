@@ -13,7 +13,7 @@ from simulate import Scene
 MODULES = {
     *("simulate.contact.compiled", "simulate.errors.observables", "simulate.errors.signals"),
     *("simulate.scene.design", "simulate.scene.tables", "simulate.sweeps.plain"),
-    "simulate.sweeps.crossings",
+    *("simulate.marching.states", "simulate.marching.trend", "simulate.sweeps.crossings"),
     *simulate.FACE.values(),
 }
 MORE_SPEEDS = ("over_f1: [0.3]", "over_f1: {first: 0.28, last: 0.39, count: 12}")
