@@ -5,8 +5,9 @@ One row for each peak, with the uncertainty of each number or that it is not kno
 
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import chain
-from math import isfinite, nan
+from math import ceil, isfinite, nan
 from pathlib import Path
+from textwrap import wrap
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from geometry.blade import RPM_PER_HZ
@@ -14,7 +15,7 @@ from geometry.project import csv_text, read_json
 from geometry.tip import JUDGED
 from simulate.errors.beyond_linear import BEYOND
 from simulate.errors.neighbour import CHAOTIC, ONE_MOTION, TWO_MOTIONS
-from simulate.scene import DYING_OUT, GROWING, TRENDS
+from simulate.scene import DYING_OUT, GROWING, STEADY, TRENDS
 from simulate.sweeps.plain import NO_CROSSING, Course, numbers_of
 from workflow import margins, markdown, stress_told
 from workflow.markdown import Number
@@ -44,14 +45,15 @@ class Column(NamedTuple):
 COLUMNS = (  # of the numbers of ``sweeps.peak_results``
     Column("amplitude", "um", 1e6, "amplitude µm"),
     Column("displacement", "um", 1e6, "largest µm"),
+    Column("displacement_last", "um", 1e6, "last µm"),
     Column("u_t_leading", "um", 1e6, "u_t at 1/16 µm"),
     Column("u_t_trailing", "um", 1e6, "at 15/16 µm"),
     Column("second_order", "1", 1.0, "second order / gap"),
     Column("wear", "um", 1e6, "wear µm"),
     Column("worn_volume", "mm3", 1e9, "worn mm³"),
     Column("opening", "um", 1e6, "mean worn depth µm"),
-    Column("force", "N", 1.0, "force N"),
-    Column("force_peak", "N", 1.0, "peak force N"),
+    Column("force", "N", 1.0, "mean force N, whole chord"),
+    Column("force_peak", "N", 1.0, "peak force N, an eighth of it"),
     Column("torque", "N m", 1.0, "torque N m"),
     Column("mean_stress", "MPa", 1e-6, "mean stress MPa"),
     Column("alternating", "MPa", 1e-6, "alternating MPa"),
@@ -62,6 +64,8 @@ COLUMNS = (  # of the numbers of ``sweeps.peak_results``
 )
 PLACES = dict(zip(JUDGED, ("", " at ξ = 15/16", " at ξ = 1/2"), strict=True))
 LOADS = {"opening", "force", "force_peak", "torque"}  # numbers of the second table
+# numbers that change further in a run that is not steady
+GO_ON = {"amplitude", "displacement_last", "wear", "worn_volume", "opening"}
 AT_END = ("at the end", "τ rev.", "mm³/rev.")  # heads
 MEANING = {  # of the columns
     "amplitude": "of the tip's radial displacement at ξ = 1/16, along the engine order EO, or of a "
@@ -69,7 +73,10 @@ MEANING = {  # of the columns
     "near a node there",
     "mode": "that from whose linear crossing with the order the peak rises, or several whose "
     "crossings are near",
-    "largest": "largest |u_r| there in the whole run, and the revolution of it",
+    "largest": "largest |u_r| there in the whole run, and the revolution of it; last: the same in "
+    "the last revolution",
+    "after so many revolutions": "not all motions in the column are steady then: their numbers, "
+    "with their ±, are those after so many revolutions, not those of the motion that they go to",
     "at ξ = 15/16": "on a casing that tapers the motion is u_r - s u_z, s = dr/dz, at ξ = 1/16 or "
     "15/16, whichever moves more",
     "u_t": "half the range of the tangential displacement in the last revolution, at both edges: "
@@ -81,8 +88,8 @@ MEANING = {  # of the columns
     "changes as it moves",
     "wear": "deepest, mean over the leading eighth of the chord",
     "mean worn depth": "worn volume over the area that the tip sweeps",
-    "force": "mean normal force on the chord over the revolutions; peak force: the largest on an "
-    "eighth of the chord",
+    "mean force": "normal force on the whole chord, mean of the revolutions; peak force: the "
+    "largest on an eighth of it",
     "torque": "mean of the revolutions, against the rotation",
     "mean stress, alternating": "of the largest change of stress between two instants of a "
     "revolution, the worst of the last one and of those that strain the blade most, at the node "
@@ -125,6 +132,7 @@ COPIED = (
 )
 
 COURSE = {  # of ``Course``: unit and its scale from SI
+    "rounds": ("rounds", 1.0),
     "time_constant": ("rounds", 1.0),
     "largest_round": ("round", 1.0),
     "place": ("xi", 1.0),
@@ -354,8 +362,19 @@ def panel(
 
 
 def columns(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
-    """Lines of aligned cells, the first column to the left, all others to the right."""
-    table = [list(heads), *map(list, rows)]
+    """Lines of aligned cells, the first column to the left, all others to the right.
+
+    Heads that are longer than the cells below them have several lines.
+    """
+    body = [*map(list, rows)]
+    longest = [max(map(len, cells)) for cells in zip(*body, strict=True)] or [0] * len(heads)
+    wrapped = [
+        wrap(head, max(width, *map(len, head.split()), 1))
+        for head, width in zip(heads, longest, strict=True)
+    ]
+    lines = max(map(len, wrapped))
+    above = zip(*([""] * (lines - len(head)) + head for head in wrapped), strict=True)
+    table = [*map(list, above), *body]
     widths = [max(map(len, cells)) for cells in zip(*table, strict=True)]
     return [
         "  ".join(
@@ -373,6 +392,14 @@ def shown(scene: Mapping[str, Any]) -> list[tuple[list[str], list[list[str]]]]:
     motion, loads = (
         [column for column in kept if (column.name in second) is among] for among in (False, True)
     )
+    courses = [row["course"] for row in rows if row["course"].get("trend") != STEADY]
+    most = max((ceil(course.get("rounds", 0)) for course in courses), default=0)
+
+    def heads(columns: Iterable[Column]) -> list[str]:
+        """Heads, with the revolutions after which numbers are told that change further."""
+        after = f" after {most} revolutions" * (most > 0)
+        return [column.head + after * (column.name in GO_ON) for column in columns]
+
     motion_rows = [
         [
             *_names(row),
@@ -393,8 +420,8 @@ def shown(scene: Mapping[str, Any]) -> list[tuple[list[str], list[list[str]]]]:
         for row in rows
     ]
     return [
-        (["EO", "mode", "rpm", *(column.head for column in motion), *AT_END, ""], motion_rows),
-        (["EO", "mode", "Ω / f₁(0)", "Hz", *(column.head for column in loads)], load_rows),
+        (["EO", "mode", "rpm", *heads(motion), *AT_END, ""], motion_rows),
+        (["EO", "mode", "Ω / f₁(0)", "Hz", *heads(loads)], load_rows),
     ]
 
 
@@ -446,7 +473,9 @@ def _end_of_run(row: PeakRow) -> list[str]:
     texts = [
         markdown.cell(number) if number is None or isfinite(number) else "-" for number in numbers
     ]
-    return [stress_told.growing(course), *texts]
+    steady = course.get("trend") == STEADY and "rounds" in course
+    after = f" (after {course['rounds']:.0f} rev.)" if steady else ""
+    return [stress_told.growing(course) + after, *texts]
 
 
 def about(scene: Mapping[str, Any]) -> str:

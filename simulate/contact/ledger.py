@@ -12,6 +12,10 @@ rod from its state before the step to strain eps, summed over the rods under the
     friction        work of the tangential forces on the blade, where the tip slides with friction
     numerical       work - friction + elastic + plastic + released - casing
 
+The ledger is of all liner that comes under the tip, whether a step sees it there or not: a rod that
+comes and goes within a step, and the area that bears in none where the footprint is lengthened
+(``Strips.lengthened``), gets and gives up the energy of the rods beside it.
+
 Only the last term is found by subtraction: the energy that the scheme creates (> 0) or loses.
 Blade alone: energy(end) - energy(start) + damping = work, to round-off, with
 
@@ -22,8 +26,8 @@ Blade alone: energy(end) - energy(start) + damping = work, to round-off, with
 
 from dataclasses import dataclass
 
-from simulate.contact.compiled import compiled
-from simulate.contact.strips import covered_part
+from simulate.contact.compiled import compiled, compiled_not_inlined
+from simulate.contact.strips import covered_part, offset, uncovered
 
 CASING, PLASTIC, RELEASED, WORK, DAMPING, FRICTION, HEAT = range(7)
 ENERGIES = 7
@@ -91,6 +95,12 @@ def book_released(strips, covered, i, j, passed, a, energies):
         change = covered_part(strips, i, k - ahead, passed) - rods[i, k].part
         released += max(-change, 0.0) * rods[i, k].stored
         gained += max(change, 0.0) * rods[i, k].stored
+    slid = ahead + passed - strip.passed
+    if abs(slid) > strips.length[i] - 1:
+        first = offset(strips, strip.low, strip.passed)
+        both = come_and_gone(rods[i, strip.low : strip.high], first, slid, strips.length[i])
+        released += both
+        gained += both
     volume, fresh = strips.area[i] * strips.thickness, 0
     # under a tip that is rounded or leans, or while the casing grows, the penetration of every rod
     # changes; where the window goes all around, the wear of its last rod is also that of its first
@@ -102,6 +112,25 @@ def book_released(strips, covered, i, j, passed, a, energies):
         fresh = max(covered_end - ahead, 0)
     else:
         gained = released - strip.stored
-    energies[RELEASED] += released * volume
-    energies[CASING] += gained * volume
+    energies[RELEASED] += released * volume * strips.lengthened[i]
+    energies[CASING] += (gained + (strips.lengthened[i] - 1) * released) * volume
     return fresh
+
+
+@compiled_not_inlined
+def come_and_gone(rods, first, slid, length):
+    """Energy, J/m3, of parts of ``rods`` that come under the tip while as much of the rod leaves.
+
+    Where the footprint slides by more than it has beyond one rod.
+
+    Parameters
+    ----------
+    first : distance of the first rod from the camber line before it slides, rods
+    slid, length : of the footprint, rods
+    """
+    energy = 0.0
+    for k in range(len(rods)):
+        ahead, behind = uncovered(first + k, length)
+        ahead_now, behind_now = uncovered(first + k - slid, length)
+        energy += min(abs(ahead_now - ahead), abs(behind_now - behind)) * rods[k].stored
+    return energy

@@ -421,7 +421,8 @@ def press(strips, covered, eps_p, i, w, w_from, lean, lean_from, energies):
         stored += part * rod.stored
         j = j + 1 if j + 1 < nu else 0
     strip.stored = stored
-    energies[PLASTIC] += worn * volume
-    energies[CASING] += supplied * volume
+    # of liner that bears in no step, too (``lengthened``)
+    energies[PLASTIC] += worn * volume * strips.lengthened[i]
+    energies[CASING] += (supplied + (strips.lengthened[i] - 1) * worn) * volume
     area = strips.area[i]  # A_i of Eq. (17)
     return t_N * area, t_T * area, moment * area, deepest

@@ -40,6 +40,7 @@ class Strips(NamedTuple):
     first: NDArray[np.float64]  # (strips,), rods: where the window on strip i begins at step 0
     advance: float  # rods that the blade passes in a step
     length: NDArray[np.float64]  # (strips,), of a footprint, rods
+    lengthened: NDArray[np.float64]  # (strips,), over that given: 1 where it is not lengthened
     rods_covered: int  # of the longest, rounded up
     inset: NDArray[np.int64]  # (strips,), rods at either end of its window that it never covers
     partly_covered: int  # rods on either side of it whose centre it covers for a part of the step
@@ -117,6 +118,13 @@ def covered_part(strips, i, k, passed):
     """Part of rod ``k`` that the footprint of strip ``i`` covers."""
     covered = (strips.length[i] + 1) / 2 - abs(offset(strips, k, passed))
     return min(max(covered, 0.0), 1.0)
+
+
+@compiled
+def uncovered(x, length):
+    """Parts of a rod, ``x`` rods from the camber line, ahead of the footprint and behind it."""
+    beyond = (1 - length) / 2
+    return min(max(beyond + x, 0.0), 1.0), min(max(beyond - x, 0.0), 1.0)
 
 
 @compiled

@@ -28,6 +28,7 @@ type Numbers = dict[str, float]
 NUMBERS = {  # of a run: unit, meaning
     "amplitude": ("m", "amplitude of u_r at xi = 1/16: along an engine order, or largest"),
     "displacement": ("m", "largest |u_r| at xi = 1/16 of all revolutions"),
+    "displacement_last": ("m", "largest |u_r| at xi = 1/16 in the last revolution"),
     "u_t_leading": ("m", "half the range of u_t at xi = 1/16 in the last revolution"),
     "u_t_trailing": ("m", "half the range of u_t at xi = 15/16 in the last revolution"),
     "wear": ("m", "deepest wear of the leading eighth of the chord (its mean)"),
@@ -137,7 +138,7 @@ def numbers(run: Run, k: float | None = None, place: float | None = None) -> Num
         bins = last_spectrum(run, place)
         result["amplitude"] = float(amplitude(bins, record.spectrum_rounds, k))
     if isfinite(largest := outcome.each.largest[0]):
-        result["displacement"] = largest
+        result |= {"displacement": largest, "displacement_last": outcome.each.last}
     result |= dict(zip(("u_t_leading", "u_t_trailing"), map(float, outcome.u_t), strict=False))
     wear = outcome.wear.astype(np.float32)
     where = wear, run.setup.places.width, run.setup.places.radius

@@ -18,7 +18,10 @@ def as_long(scene: Scene, rounds: float) -> Scene:
     """
     if scene.until is None:
         return scene
-    return scene.but(until=None, rounds=max(ceil(rounds), scene.record.rounds_of_spectrum))
+    whole = max(ceil(rounds), scene.record.rounds_of_spectrum)
+    states = scene.record.states_rounds
+    record = {"states_rounds": states and min(states, whole)}
+    return scene.but(until=None, rounds=whole, record=record)
 
 
 @dataclass(frozen=True)

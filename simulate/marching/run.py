@@ -165,9 +165,9 @@ def march(scene: Scene, setup: Setup, start: FinalState | Worn | None = None) ->
             samples, worn = of_kernel[3].samples, _worn(setup, state)
             for edge, each in enumerate(at_edges):
                 each.add(done, samples[:, edge], worn)
-            if scene.record.gauges and (row := done - scene.rounds + least) >= 0:
+            if scene.record.gauges and (row := _row(done, least, scene.rounds, scene.until)):
                 modal = of_kernel[3].states[thin - 1 :: thin, : len(setup.Phi)]
-                gauges[row] = modal @ setup.Phi_gauges.T
+                gauges[row - 1] = modal @ setup.Phi_gauges.T
             if most:
                 most.add(done + 1, of_kernel[3].states)
         done += 1
@@ -192,7 +192,10 @@ def march(scene: Scene, setup: Setup, start: FinalState | Worn | None = None) ->
     status = judge(facts)
     to_the_end, wanted = status in WITH_RESULT, scene.record.end or scene.speeds.in_turn
     place = (np.nan, np.nan) if to_the_end else _place(setup, state, end, node, step, total)
-    u_r, forces, states = (_in_order(array[1:], done, scene.until) for array in kept)
+    forces = kept[1][1:]
+    u_r, states, gauges = (
+        _in_order(array, done, scene.until) for array in (kept[0][1:], kept[2][1:], gauges)
+    )
     judged = len(setup.Phi_out) - len(scene.record.chord)
     shown, u_r = [moves, *range(judged, len(setup.Phi_out))], u_r.reshape(-1, u_r.shape[2])
     of_spectrum = least * scene.record.samples_per_round
@@ -256,8 +259,13 @@ def _row(done: int, kept: int, rounds: int, until: str | None) -> int:
 
 
 def _in_order(kept: NDArray[np.float64], done: int, until: str | None) -> NDArray[np.float64]:
-    """Revolutions ``kept`` (kept, ...) of which ``done`` were computed, the last one last."""
-    return np.roll(kept, -done, axis=0) if until and 0 < len(kept) < done else kept
+    """Revolutions ``kept`` (kept, ...) of which ``done`` were computed, the last one last.
+
+    Where the last is not known beforehand without those that were not computed.
+    """
+    if not until or not len(kept):
+        return kept
+    return np.roll(kept, -done, axis=0) if len(kept) < done else kept[:done]
 
 
 def _worn(setup: Setup, state: State) -> float:

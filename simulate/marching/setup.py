@@ -339,6 +339,7 @@ def strips_under(
         first=(middle - partly_covered - (m - 1) / 2) % nu,
         advance=passed,
         length=length,
+        lengthened=length / rods,
         rods_covered=m,
         inset=(m - np.ceil(length).astype(int)) // 2,
         partly_covered=partly_covered,

@@ -80,10 +80,26 @@ class Rounds:
     @property
     def largest(self) -> tuple[float, float]:
         """Largest ``|u_r|``, m, and the number of its revolution, from 1; nan if none is whole."""
+        of_rounds = self._farthest
+        return (
+            (float(of_rounds.max()), float(of_rounds.argmax() + 1))
+            if len(of_rounds)
+            else (
+                nan,
+                nan,
+            )
+        )
+
+    @property
+    def last(self) -> float:
+        """Largest ``|u_r|`` in the last revolution, m; nan if none is whole."""
+        return float(of_rounds[-1]) if len(of_rounds := self._farthest) else nan
+
+    @property
+    def _farthest(self) -> NDArray[np.float64]:
+        """Largest ``|u_r|``, m, of each whole revolution."""
         of_rounds = abs(self.extremes).max(axis=1)
-        if np.isnan(of_rounds).all():
-            return nan, nan
-        return float(np.nanmax(of_rounds)), float(np.nanargmax(of_rounds) + 1)
+        return of_rounds[np.isfinite(of_rounds)]
 
 
 def looks(standing: int, least: int, most: int) -> set[int]:

@@ -49,7 +49,7 @@ EXCLUDED = [  # keys of which a scene has one at most, named by the first
     ("speeds.in_turn", "peaks"),  # a run goes on from the one before, not from one added between
     *product(("speeds.in_turn", "start.speed_over_f1"), (AT_REST, TRAVELLING)),
     ("contact.friction", NOT_ESTIMATED),
-    *product(("until",), ("accuracy", *(f"record.{key}" for key in OF_LAST_ROUNDS))),
+    ("until", "accuracy"),
     ("halving", "accuracy"),  # which bounds the error of the step by other runs
     ("halving", "start"),  # the second run needs the same start
     ("halving", "speeds.in_turn"),
@@ -271,7 +271,6 @@ class Scene(SettingsFile):
             "speeds.in_turn": self.speeds.in_turn,
             "contact.friction": self.contact.friction,
             "until": self.until,
-            **{f"record.{key}": getattr(self.record, key) for key in OF_LAST_ROUNDS},
             "accuracy": self.accuracy,
             NOT_ESTIMATED: self.accuracy,
             "halving": self.halving,

@@ -155,14 +155,14 @@ COORDINATES = {  # dimensions, unit, meaning
     "order": ("order", "1", "engine order"),
     "chord": ("chord", "1", "chord fraction of the place"),
     "history_time": ("history_time", "1", "revolutions since the start"),
-    "time": ("time", "1", "revolutions since the start"),
+    "time": ("time", "1", "revolutions since {since}"),
     "edge": ("edge", "1", "chord fraction of the edge"),
     "P": ("strip dof", "1", "u_r - s u_z = P states, s the slope of the casing"),
     "round": ("round", "1", "number of the revolution"),
     "share": ("share", "1", "middle of the eighth of the chord"),
-    "motion_time": ("motion_time", "1", "revolutions since the start"),
+    "motion_time": ("motion_time", "1", "revolutions since {since}"),
     "gauge": ("gauge", "", "grid of a strain gauge"),
-    "gauge_time": ("gauge_time", "1", "revolutions since the start"),
+    "gauge_time": ("gauge_time", "1", "revolutions since {since}"),
     "window": ("window", "1", "revolutions since the start, middle of a window"),
     "bound": ("bound", "1", "end of the range"),
     "energy": ("energy", "", ENERGIES + "{of_friction}"),
@@ -411,6 +411,7 @@ def _dataset(scene: Scene, values: dict[str, Any]) -> xr.Dataset:
     said = {
         "record": scene.record,
         "of_friction": OF_FRICTION if scene.contact.friction is not None else "",
+        "since": "the end of the run" if scene.until else "the start",
         "second_run": "twice, half or a quarter of the step; nan where it is not checked"
         if scene.checked_share or scene.halving
         else "a coarser companion run",
@@ -469,6 +470,7 @@ def course(run: xr.Dataset) -> Course:
         place |= {"grows": further(swing), "grows_in": len(swing)}
     return place | {
         "trend": run["trend"].item(),
+        "rounds": run["rounds"].item(),
         "time_constant": run["time_constant"].item(),
         "largest_round": run["largest_round"].item(),
         "wears": float(worn[-ceil(len(worn) / 4) :].mean()),
@@ -576,10 +578,26 @@ def _of_curve(run: Run) -> dict[str, Any]:
     return {"curve_share": run.outcome.wear.max() / deepest}
 
 
+def _last(scene: Scene) -> int:
+    """Revolution that ends the times of a record of the last ones: 0 where each run has its own."""
+    return 0 if scene.until else scene.rounds
+
+
+def _filled(values: NDArray[np.float64], rows: int, at_end: bool = False) -> NDArray[np.float64]:
+    """The ``values`` (n, ...) with nan for the rows of revolutions that were not computed.
+
+    These follow; or come before, where the values are ``at_end``.
+    """
+    whole = np.full((rows, *values.shape[1:]), np.nan)
+    whole[rows - len(values) if at_end else 0 :][: len(values)] = values
+    return whole
+
+
 def _of_history(run: Run) -> dict[str, Any]:
     """Displacements at the places of the history."""
-    record, u_r = run.scene.record, run.outcome.u_r
-    time = np.arange(1, len(u_r) + 1) / record.samples_per_round
+    record, samples = run.scene.record, run.scene.record.samples_per_round
+    u_r = _filled(run.outcome.u_r, run.scene.rounds * samples)
+    time = np.arange(1, len(u_r) + 1) / samples
     return {"history": u_r[:, 1:].T, "chord": record.chord, "history_time": time}
 
 
@@ -587,9 +605,9 @@ def _of_states(run: Run) -> dict[str, Any]:
     """States of the last revolutions, and their displacements over the strips."""
     rounds, samples = run.scene.record.rounds_of_states, run.scene.record.samples_per_round
     return {
-        "states": run.outcome.states,
+        "states": _filled(run.outcome.states, rounds * samples, at_end=True),
         "P": closing_rows(run.rom, run.scene.casing, run.setup.places.xi),
-        "time": run.scene.rounds - rounds + np.arange(1, rounds * samples + 1) / samples,
+        "time": _last(run.scene) - rounds + np.arange(1, rounds * samples + 1) / samples,
     }
 
 
@@ -637,12 +655,14 @@ def _of_forces(run: Run) -> dict[str, Any]:
 
 def _of_gauges(run: Run) -> dict[str, Any]:
     """Strain and stress along gauges: of the vibration over time, and of rotation."""
-    strain, stress = np.split(run.outcome.gauges.T.astype(np.float32), 2)
+    rounds, samples = run.scene.record.rounds_of_spectrum, run.scene.record.samples_per_round
+    times = rounds * samples // (2 - samples % 2)
+    read = _filled(run.outcome.gauges, times, at_end=True)
+    strain, stress = np.split(read.T.astype(np.float32), 2)
     static = evaluate(run.rom.gauge_rows, run.setup.Omega)[..., 0]
-    rounds, times = run.scene.record.rounds_of_spectrum, strain.shape[1]
     return {
         "gauge": [*run.scene.record.grids],
-        "gauge_time": run.scene.rounds - rounds + np.arange(1, times + 1) * rounds / times,
+        "gauge_time": _last(run.scene) - rounds + np.arange(1, times + 1) * rounds / times,
         "gauge_strain": strain,
         "gauge_stress": stress,
         "gauge_strain_static": static[0],
@@ -656,10 +676,11 @@ def _of_motion(run: Run) -> dict[str, Any]:
     mode = known(scene.record.motion, "motion")
     step = every(mode, samples, run.setup.omega, run.setup.Omega)
     edges = np.rint(np.arange(WINDOWS * scene.rounds) * samples / WINDOWS).astype(int)
-    bounds = [bound.reduceat(outcome.u_r[:, 0], edges) for bound in (np.minimum, np.maximum)]
+    u_r = _filled(outcome.u_r[:, 0], scene.rounds * samples)
+    bounds = [bound.reduceat(u_r, edges) for bound in (np.minimum, np.maximum)]
     return {
         "motion": outcome.states[-samples:][step - 1 :: step].astype(np.float32),
-        "motion_time": scene.rounds - 1 + np.arange(step, samples + 1, step) / samples,
+        "motion_time": _last(scene) - 1 + np.arange(step, samples + 1, step) / samples,
         "strained": outcome.strained.astype(np.float32),
         "strained_round": outcome.strained_rounds,
         "envelope": np.stack(bounds, axis=-1).astype(np.float32),

@@ -47,7 +47,10 @@ from simulate.sweeps.before import before
 from simulate.sweeps.dataset import checks, course, scene_of, statuses
 from simulate.sweeps.peak import Peak, Responses, along_order, reported, rise
 
-OF_MOTION = {name: name for name in ("amplitude", "displacement", "u_t_leading", "u_t_trailing")}
+OF_MOTION = {
+    name: name
+    for name in ("amplitude", "displacement", "displacement_last", "u_t_leading", "u_t_trailing")
+}
 OF_CONTACT = {  # numbers of a peak by their name in files, and that in ``NUMBERS``
     **{name: name for name in ("wear", "worn_volume", "opening", "force_peak", "torque")},
     "force": "force_mean",

@@ -33,6 +33,7 @@ class Course(TypedDict, total=False):
     """How a run went on to its end; of one that ended early the trend alone."""
 
     trend: str  # whether the motion is steady
+    rounds: float  # revolutions computed
     time_constant: float  # revolutions, in which the mode that responds dies out to 1/e
     largest_round: float  # number of the revolution of the largest displacement
     wears: float  # m3 in a revolution, mean of the last quarter

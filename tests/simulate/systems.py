@@ -64,6 +64,7 @@ def strips(
         first=(first - partly_covered) % len(d),
         advance=float(advance),
         length=np.full(n, float(length)),
+        lengthened=np.ones(n),
         rods_covered=m,
         inset=np.zeros(n, int),
         partly_covered=partly_covered,

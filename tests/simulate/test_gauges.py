@@ -16,7 +16,7 @@ from simulate.errors.neighbours import QUARTER
 from simulate.errors.run import Case
 from simulate.marching import SceneError, check_scene, prepare
 from simulate.scene import Record
-from simulate.sweeps.dataset import load, save
+from simulate.sweeps.dataset import load, of_run, save
 from simulate.sweeps.peak_results import to_march
 
 ROOT = {"name": "root", "at": [450.0, 1.0, 2.0], "direction": [1.0, 0.0, 0.0]}
@@ -151,8 +151,20 @@ def test_gauges_that_cannot_be_are_refused(gauges, key):
     assert caught.value.key == key
 
 
-def test_a_run_until_steady_has_no_gauges():
-    refused(SettingsError, case, until="steady", record={"states_rounds": None, "motion": None})
+def test_a_run_until_it_is_steady_reads_its_last_rounds(rom):
+    """As a run of as many rounds does; of one that breaks off only what was computed."""
+    at = {"speeds": {"over_f1": [0.3]}, "damping_ratio": 0.02, "integrator": EXACT}
+    until = swept(case(**at, rounds=200, until="steady", record={"motion": None}), rom)
+    rounds = int(until["rounds"].item())
+    assert 8 < rounds < 200
+    same = swept(case(**at, rounds=rounds, record={"motion": None}), rom)
+    for name in ("gauge_strain", "gauge_stress"):
+        np.testing.assert_array_equal(until[name], same[name])
+    np.testing.assert_allclose(until["gauge_time"] + rounds, same["gauge_time"], rtol=1e-12)
+    of = case(**at, rounds=200, until="steady")
+    setup = replace(prepare(of, rom, 0.3 * rom.omega1), bound=1e-6)
+    assert Case(of, rom, setup).march().outcome.rounds < 2
+    assert np.isnan(of_run(Case(of, rom, setup).march())["gauge_strain"]).any()
 
 
 def test_grids_are_those_of_their_gauges():

@@ -8,11 +8,10 @@ from math import ceil, inf, nan
 
 import numpy as np
 import pytest
-from refused import refused
 from scenes import EXACT, RUBBING, of_steps, scene
 from scipy.signal import lfilter
 
-from geometry.project import ROOT, SettingsError
+from geometry.project import ROOT
 from simulate.errors.neighbour import Neighbour
 from simulate.errors.neighbours import ITSELF, TWIN, judged
 from simulate.errors.run import Case
@@ -192,10 +191,33 @@ def test_a_ramp_ends_where_it_takes_its_last_value():
     assert scene(casing__ramp_rounds=None, casing__ramp=still).casing.changes_until == 0
 
 
-def test_what_is_recorded_of_the_last_rounds_does_not_go_with_it():
-    history = RUB | {"record": RUB["record"] | {"history": {"chord": [0.5]}}}
-    error = refused(SettingsError, scene, **history, rounds=20, until="steady")
-    assert error.key == "until" and "record.history" in str(error)
+def test_what_is_recorded_over_time_is_that_of_as_many_rounds(coarse_rom):
+    """To the last bit: histories from the start, all else of the last rounds, in order."""
+    record = RUB["record"] | {"states_rounds": 3, "motion": 3, "history": {"chord": [0.5]}}
+    case = scene(**RUB | {"record": record}, rounds=200, until="steady", speeds={"over_f1": [0.3]})
+    until = sweep(case, coarse_rom)
+    rounds = int(until["rounds"].item())
+    assert until["trend"].item() == STEADY and rounds < 200
+    same = sweep(case.but(until=None, rounds=rounds), coarse_rom)
+    for name in ("states", "motion", "strained", "strained_round", "spectrum", "along", "torque"):
+        values = until[name].values[:, :rounds] if name == "torque" else until[name].values
+        np.testing.assert_array_equal(values, same[name].values)
+    for name, time in {"history": "history_time", "envelope": "window"}.items():
+        cut, left = np.split(until[name].transpose(time, ...).values, [same.sizes[time]])
+        np.testing.assert_array_equal(cut, same[name].transpose(time, ...).values)
+        assert np.isnan(left).all()
+    for time in ("time", "motion_time"):  # runs end at times of their own
+        np.testing.assert_allclose(until[time] + rounds, same[time], rtol=1e-12)
+        assert "since the end" in until[time].attrs["long_name"]
+
+
+def test_second_runs_record_no_more_states_than_the_run(coarse_rom):
+    record = {"samples_per_round": 64, "states_rounds": 150, "spectrum_rounds": None}
+    case = scene(**RUB | {"record": record}, rounds=200, until="steady", twin=True)
+    run = judged(marched_case(case, coarse_rom))
+    assert run.outcome.rounds < 150 and 0 < max(run.departures.values()) < 1e-6
+    ended = of_run(run)["states"].dropna("time")
+    np.testing.assert_array_equal(ended[0], run.outcome.states)
 
 
 def test_a_peak_still_grows_after_the_twenty_rounds_of_the_paper(coarse_rom):

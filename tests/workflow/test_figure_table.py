@@ -20,7 +20,6 @@ def scene(blade="thin", design=None, gaps="running", count=9, touches=True, **re
         directions="r",
         design=design,
         gaps=Made(vary=gaps == "rest"),
-        until=None,
         speeds=Made(count=count),
         liner=Made(law=Made(touches=touches)),
         record=Made(

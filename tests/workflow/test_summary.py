@@ -299,6 +299,45 @@ def test_a_run_says_whether_it_is_steady(summed, trend):
     assert float(row["wears (mm3 per round)"]) == pytest.approx(3e-3)
 
 
+def heads(found):
+    return [head for heads, _ in summary.shown(found["scenes"][0]) for head in heads]
+
+
+@pytest.mark.parametrize("trend", TRENDS)
+def test_heads_say_after_how_many_revolutions_what_goes_on_is_told(summed, trend):
+    """Unless all is steady, also of a run that may end before; not of the largest, nor of means."""
+    course = ANSWER["course"] | {"trend": trend, "rounds": 34.0}
+    last = {"numbers": NUMBERS | {"displacement_last": 6e-5}}
+    steady = ANSWER | {"course": ANSWER["course"] | {"rounds": 12.0}}
+    found = summed(peaks=[ANSWER | last | {"course": course}, steady])
+    after = [head for head in heads(found) if head.endswith(" after 34 revolutions")]
+    named = ["amplitude µm", "last µm", "wear µm", "worn mm³", "mean worn depth µm"]
+    assert [head.removesuffix(" after 34 revolutions") for head in after] == (
+        [] if trend == "steady" else named
+    )
+    rows = summary.shown(found["scenes"][0])[0][1]
+    assert "steady (after 12 rev.)" in rows[1] and "60 (no ±)" in rows[0]
+    assert ("steady (after 34 rev.)" in rows[0]) == (trend == "steady")
+    assert "largest µm" in heads(found) and "last: the same" in summary.table(found)
+
+
+def test_forces_name_the_area_that_they_are_of(summed):
+    named = {"mean force N, whole chord", "peak force N, an eighth of it"}
+    assert named <= {*heads(summed())}
+
+
+def test_heads_longer_than_their_cells_have_several_lines():
+    heads = ["EO", "wear µm after 20 revolutions", ""]
+    lines = summary.columns(heads, [["4", "7 ±1.3%", "one motion"], ["10", "12", ""]])
+    assert lines == [
+        "        wear µm",
+        "       after 20",
+        "EO  revolutions",
+        "4       7 ±1.3%  one motion",
+        "10           12",
+    ]
+
+
 def test_a_peak_with_two_motions_has_both_numbers(summed):
     found = summed({"verdict": TWO_MOTIONS, "other": NUMBERS | {"amplitude": 9e-6}})
     assert cells(found)[3] == "40 or 9 ±5%"

@@ -364,7 +364,7 @@ async function start() {
   document.head.append(script);
   const codes = new Uint16Array(await inflated(page.codes));
   byId("about").textContent = `Blade ${facts.blade}, scene ${facts.scene}: ${facts.label}. f₁(0) = ` +
-    `${facts.f1_Hz.toFixed(2)} Hz, gap ${facts.gap_um.toFixed(1)} µm, ${facts.speeds.length} speeds of ${facts.rounds} revolutions.`;
+    `${facts.f1_Hz.toFixed(2)} Hz, gap ${facts.gap_um.toFixed(1)} µm, ${facts.speeds.length} speeds of ${facts.at_most}${facts.rounds} revolutions.`;
   byId("meanings").textContent = facts.meanings;
   const first = facts.peaks.length ? facts.peaks[0].index : 0;
   chosen = first;

@@ -94,6 +94,7 @@ def facts(
         "f1_Hz": sweep.attrs["f1_Hz"],
         "gap_um": 1e6 * leading_gap(sweep),
         "rounds": response.scene.rounds,
+        "at_most": "at most " if response.scene.until else "",
         "travels": bool(response.scene.casing.travelling),
         "spectrum_rounds": response.scene.record.spectrum_rounds,
         "orders": response.orders,

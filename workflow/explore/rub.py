@@ -18,6 +18,7 @@ from simulate.contact.gaps import gaps_at, given_gaps
 from simulate.contact.places import share_weights
 from simulate.contact.ramp import ramp_of
 from simulate.errors.accuracy import Choice
+from simulate.errors.run import as_long
 from simulate.marching import FinalState, Outcome, Setup, Worn, check_scene, march, prepare
 from simulate.scene import LEADING, Record, Scene
 from simulate.sweeps.before import before
@@ -84,6 +85,8 @@ def by_rounds(
     (Omega,) = scene.speeds.omega(rom.f1)
     check_scene(scene, rom)
     first = before(scene, rom, start)(Omega)
+    if scene.until:  # as long as the run of the sweep
+        scene = as_long(scene, march(scene, prepare(scene, rom, Omega), first).rounds)
     one = scene.but(
         rounds=1,
         record=Record(

@@ -13,13 +13,12 @@ from simulate.scene import Scene
 DELIVERED = "delivered"  # the part of the table that a plain run delivers
 OF_SCENE = {  # demands on the value of a key of a scene
     "set": bool,
-    "none": lambda value: value is None,
     "changing with the speed": lambda gaps: gaps.vary,
     "a YAML file": lambda path: path is not None and path.endswith((".yaml", ".yml")),
 }
 
 type Need = Literal[
-    *("set", "none", "changing with the speed", "a YAML file", "matrices", "mesh", "fatigue")
+    *("set", "changing with the speed", "a YAML file", "matrices", "mesh", "fatigue")
 ]
 
 

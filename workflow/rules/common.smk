@@ -186,7 +186,7 @@ def one_of(names):
 
 def keeps_motion(scene):
     """Whether the sweep of a scene keeps the motion of which pages and stresses are made."""
-    return not (scene.design or scene.until) and scene.blade in MESHED
+    return not scene.design and scene.blade in MESHED
 
 
 BLADE_FILES = read_or_fail(yaml_file.names, "workflow/blades")
@@ -430,7 +430,7 @@ def sweep_with_motion(wildcards):
     if not keeps_motion(SCENES[wildcards.scene]):
         raise WorkflowError(
             f"{scene_file(wildcards.scene)}: without the motion of a meshed blade, of which stresses are "
-            f"made: take out until or design, or another blade"
+            f"made: take out design, or another blade"
         )
     return f"results/{wildcards.blade}/{wildcards.scene}/sweep.nc"
 

@@ -58,6 +58,7 @@ class Case:
     ramp: float  # part of the time marched over which the casing distorts
     # or parts of it, and factors of the distortion there
     table: tuple[Sequence[float], Sequence[float]] | None = None
+    footprints: float | None = None  # that the tip passes in a step, in place of the above
 
     def grows(self, rounds: float) -> dict[str, Any]:
         """Keys of the casing by which its distortion changes over the ``rounds`` marched."""
@@ -148,6 +149,16 @@ def draw_changing(number: int, drawing: Drawing) -> Case:
     parts = np.sort(dice.uniform(0.02, 1, round(dice.uniform(2, 5))))
     factors = 0.0, *dice.uniform(0, 1.2, len(parts))
     return replace(case, scene=scene, table=((0.0, *map(float, parts)), factors))
+
+
+def draw_long(number: int, drawing: Drawing) -> Case:
+    """Case ``number`` by piecewise-exact with steps in which the tip passes 1 to 4 footprints.
+
+    At speeds at which such steps may resolve the first mode.
+    """
+    case, dice = draw(number, drawing), _Dice(np.random.PCG64([drawing.seed, number, 2]))
+    scene = {**case.scene, "speeds": {"over_f1": [dice.uniform(0.1, 0.4)]}}
+    return replace(case, scene=scene, scheme=EXACT, footprints=dice.decades(1, 4))
 
 
 def _some(

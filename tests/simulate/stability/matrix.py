@@ -86,13 +86,16 @@ def _prepared(case: Case, rom: Rom, integrator: Mapping[str, Any]) -> tuple[Scen
 
 def _integrator(case: Case, rom: Rom, limit: float) -> dict[str, Any]:
     """Settings of the integrator; ``limit`` of central differences, s."""
-    if case.scheme == EXPLICIT and case.as_fraction:
-        step = {"fraction_of_limit": case.step_over_limit}
+    if case.footprints:
+        around = 2 * np.pi * rom.camber[:, 0].mean() / case.scene["liner"]["footprint_m"]
+        steps = {"steps_per_round": max(int(around / case.footprints / SAMPLES), 1) * SAMPLES}
+    elif case.scheme == EXPLICIT and case.as_fraction:
+        steps = {"fraction_of_limit": case.step_over_limit}
     else:
         round_time = 1 / (case.scene["speeds"]["over_f1"][0] * rom.f1)
-        steps = round_time / (case.step_over_limit * limit) / SAMPLES
-        step = {"steps_per_round": max(round(steps), 1) * SAMPLES}
-    return {"scheme": case.scheme} | step
+        of_round = round_time / (case.step_over_limit * limit) / SAMPLES
+        steps = {"steps_per_round": max(round(of_round), 1) * SAMPLES}
+    return {"scheme": case.scheme} | steps
 
 
 def _seconds(limit: float, setup: Setup, times: int) -> float:
