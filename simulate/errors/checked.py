@@ -2,7 +2,8 @@
 
 First that of the largest response, then by risk, while they take no more than a share of the steps
 of all runs. One risky run is checked beyond that where nothing is overdrawn: so one that stands
-alone is. Beside a run found wrong its neighbours in speed are checked, whatever that takes.
+alone is. Beside a run found wrong, or that its check has cleared of what its energies said of it,
+its neighbours in speed are checked, whatever that takes.
 """
 
 from collections.abc import Sequence
@@ -37,7 +38,8 @@ def checked(
         budget -= new.steps - run.steps
         ordered[i] = replace(new, seconds=run.seconds + perf_counter() - begun)
         report(f"{ordered[i].line}; checked, error {new.largest_error:.2g}")
-        if new.outcome.status == "inaccurate" or new.setup.h != run.setup.h:
+        found = run.outcome.status, new.outcome.status
+        if "inaccurate" in found or new.setup.h != run.setup.h:
             next_to_wrong |= {i - 1, i + 1}
             queue.sort(key=lambda j: j not in next_to_wrong)
     return ordered, budget

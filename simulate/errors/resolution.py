@@ -33,6 +33,7 @@ EDGE = 0.15  # and lasts while above this: a rough casing crosses one level ofte
 WINDOW = 12.0  # least steps of a window: errors are about a tenth there
 PERIOD = 100.0  # least steps of a period of the first mode where the tip can touch,
 HALVED = 10.0  # and where half the step is run, too
+FOOTPRINTS = 2.0  # most that the tip passes in a step without `halving`
 # of the casing's work: above, a run that stands alone is `inaccurate`; the predicted force of
 # central differences loses some also where they are accurate
 LOST = {"central-difference": 0.06, "piecewise-exact": 0.015}
@@ -43,7 +44,8 @@ RISKY = 5e-4  # risk above which a run that stands alone is checked
 def check_resolution(scene: Scene, setup: Setup) -> None:
     """Refuse a step too long for the shortest contact of the still blade, or for its first mode.
 
-    With `halving` the second run tells the latter, but for very long steps.
+    And one in which the tip passes more than two footprints. With `halving` second runs tell the
+    latter two, but for very long steps.
 
     Raises
     ------
@@ -54,7 +56,7 @@ def check_resolution(scene: Scene, setup: Setup) -> None:
     deepest = farthest(strips) - float(strips.g0.min())
     if not strips.touches or deepest <= 0:  # a blade at rest stays so
         return
-    period = _period(setup)
+    period, footprints = _period(setup), footprints_passed(setup)
     window = shortest_window(setup, deepest)
     times, what = max(
         (
@@ -62,6 +64,10 @@ def check_resolution(scene: Scene, setup: Setup) -> None:
             f"the first mode has {period:.3g} steps in a period",
         ),
         (WINDOW / window, f"the closest part of the casing is passed in {window:.3g} steps"),
+        (
+            0.0 if scene.halving else footprints / FOOTPRINTS,
+            f"the tip passes {footprints:.3g} of its footprints in a step",
+        ),
     )
     if times <= 1:
         return
@@ -79,15 +85,24 @@ def check_resolution(scene: Scene, setup: Setup) -> None:
 def risk(run: Run) -> float:
     """Risk that a run is wrong, from it alone: 1 where period and energy are at their limits.
 
-    Inf for a run that is stopped, which may be right; 0 without contact.
+    Inf for a run that is stopped, which may be right, and for one whose step passes more than a
+    footprint; 0 without contact.
     """
     ledger, limit = run.outcome.ledger, LOST[run.scene.stepping.scheme]
     if run.outcome.status == "inaccurate":
         return np.inf
     if run.outcome.contact_share == 0:
         return 0.0
+    if footprints_passed(run.setup) > 1:
+        return np.inf
     lost = abs(ledger.numerical) / max(abs(ledger.casing), np.finfo(float).tiny)
     return float(PERIOD / _period(run.setup) * (max(lost, LEAST_LOST) / limit) ** POWER)
+
+
+def footprints_passed(setup: Setup) -> float:
+    """Footprints that the tip passes in a step, the mean of the strips."""
+    strips = setup.strips
+    return float(strips.advance / (strips.length / strips.lengthened).mean())
 
 
 def _period(setup: Setup) -> float:

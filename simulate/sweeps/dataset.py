@@ -412,7 +412,7 @@ def _dataset(scene: Scene, values: dict[str, Any]) -> xr.Dataset:
         "record": scene.record,
         "of_friction": OF_FRICTION if scene.contact.friction is not None else "",
         "since": "the end of the run" if scene.until else "the start",
-        "second_run": "twice, half or a quarter of the step; nan where it is not checked"
+        "second_run": "twice to an eighth of the step; nan where it is not checked"
         if scene.checked_share or scene.halving
         else "a coarser companion run",
     }

@@ -56,7 +56,8 @@ OF_CONTACT = {  # numbers of a peak by their name in files, and that in ``NUMBER
     "force": "force_mean",
 }
 CLOSE = (-LAST, 0.0, LAST)
-LEAST_PART = 0.2  # of the largest change of a run's numbers: that of one may pass through zero
+# of the largest change of a run's numbers: in that of one errors of step and strips may cancel
+LEAST_PART = 1 / 3
 
 
 def results(

@@ -85,12 +85,13 @@ def test_runs_that_ended_early_are_not_checked(tried):
     assert tried(runs, {1: inf, 2: 1.0, 3: inf}, share=1.0)[0] == [2]
 
 
-def alone(steps_a_period, lost, status="ok", contact=0.5, scheme="piecewise-exact"):
-    """A run of which the facts for its risk are known."""
+def alone(steps_a_period, lost, status="ok", contact=0.5, scheme="piecewise-exact", passes=0.5):
+    """A run of which the facts for its risk are known; it ``passes`` footprints in a step."""
     outcome = SimpleNamespace(
         status=status, contact_share=contact, ledger=Ledger(1.0, 1.0 - lost, 0, 0, 0, 0, 0)
     )
-    setup = SimpleNamespace(omega=np.array([2 * np.pi, 9e9]), h=1 / steps_a_period)
+    strips = SimpleNamespace(advance=passes, length=np.ones(2), lengthened=np.ones(2))
+    setup = SimpleNamespace(omega=np.array([2 * np.pi, 9e9]), h=1 / steps_a_period, strips=strips)
     return Run(
         SimpleNamespace(stepping=SimpleNamespace(scheme=scheme)), None, setup, outcome=outcome
     )
@@ -108,6 +109,7 @@ def test_the_risk_is_one_where_both_facts_are_at_their_limits(scheme):
 
 def test_the_risk_of_a_stopped_run_is_infinite_and_without_contact_there_is_none():
     assert risk(alone(1e6, 0.1, status="inaccurate")) == inf
+    assert risk(alone(1e6, 0.0, passes=1.1)) == inf > risk(alone(1e6, 0.0, passes=1.0))
     assert risk(alone(PERIOD, 0.0, contact=0.0)) == 0
 
 
@@ -141,21 +143,24 @@ def test_checks_change_no_number_of_a_right_run(swept):
 
 
 def test_a_sweep_whose_step_is_too_long_is_mended(coarse_rom):
-    """Alone nearly all runs are stopped for their energy; beside wrong runs all are checked."""
+    """Alone nearly all runs are stopped for their energy; beside those found out all are checked.
+
+    Some are right, others are mended by an eighth of the step.
+    """
     stiff = {"kind": "plastic", "E": 100.0, "K": 45.0, "sigma_Y": 1e-8, "unit_Pa": 2e9}
     case = scene(integrator=EXACT, speeds=SPEEDS, rounds=3, liner__law=stiff)
     case = case.but(liner__rods_per_round=2039)
     plain, runs = (sweep(case.but(check=share), coarse_rom) for share in (0, 0.1))
     fine = sweep(case.but(integrator=of_steps(16 * 1280)), coarse_rom)
     assert (plain.status == "inaccurate").sum() >= 10 and (runs.status == "ok").sum() >= 8
-    mended = np.flatnonzero(runs.steps_per_round == 4 * 1280)
-    assert len(mended) >= 5 and np.isfinite(runs.error).sum() > 0
-    for index in mended:
+    mended = np.flatnonzero(runs.steps_per_round > 1280)
+    assert len(mended) >= 2 and np.isfinite(runs.error).all()
+    for index in np.flatnonzero(runs.status == "ok"):
         near, far, exact = (of.history.values[index] for of in (runs, plain, fine))
         apart = [np.linalg.norm(of - exact) / np.linalg.norm(exact) for of in (near, far)]
-        assert apart[0] < 0.5 * apart[1]
+        assert apart[0] < 0.5 * apart[1] or index not in mended
         assert apart[0] < runs.error.sel(observable="history").values[index] < 0.1
-    assert case_of(runs, case, coarse_rom, Peak(None, mended[0], 0.3)).setup.steps == 4 * 1280
+    assert case_of(runs, case, coarse_rom, Peak(None, mended[0], 0.3)).setup.steps == 8 * 1280
 
 
 @pytest.mark.parametrize(

@@ -82,10 +82,10 @@ def test_no_case_is_silently_wrong(drawn, every, request):
 
 
 @slow
-def test_the_known_case_is_still_silently_wrong(rom):
-    """Of an earlier seed, told in simulate/README.md: h, h/2 and h/4 agree, h/8 does not."""
+def test_where_an_eighth_of_the_step_does_not_agree_the_run_is_stopped(rom):
+    """Of an earlier seed, told in simulate/README.md: h, h/2 and h/4 agree within 2 %."""
     end = judge_case(draw(172, BEFORE._replace(seed=20_261_125)), rom)
-    assert end.checked == Verdict("wrong", "ok") and max(end.bound.values()) < 0.05
+    assert (end.plain.kind, end.checked) == ("wrong", Verdict("flagged", "inaccurate"))
     assert 0.45 < end.error["history"] < 0.55
     assert end.error["wear"] < 1e-3 and end.error["force_peak"] < 4e-3
 

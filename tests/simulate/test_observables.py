@@ -1,6 +1,10 @@
 import numpy as np
 import pytest
+from runs import set_up
+from scenes import RUBBING, of_steps, scene
 
+from simulate.errors.observables import NUMBERS, numbers
+from simulate.errors.run import Case
 from simulate.errors.signals import (
     amplitude,
     blurred,
@@ -133,3 +137,23 @@ def test_lobes_of_other_depths_and_widths_count_alike_and_their_tops_are_rounded
     assert top == pytest.approx(2 * (1 - np.sqrt(2 / np.pi) * 4 / 60), rel=1e-3)
     assert lobe_count(profile) == 2
     assert lobe_count(np.zeros(100)) == 0
+
+
+OF_TAPER = {"u_t_leading", "u_t_trailing"}  # of a casing that tapers alone
+
+
+@pytest.mark.parametrize("contact", [{}, {"friction": 0.1}], ids=["flat", "friction"])
+def test_every_number_is_the_same_over_steps_and_rods(coarse_rom, contact):
+    """Half a rod to six in a footprint, steps that pass up to 0.9 of it, beside one of a tenth."""
+
+    def found(steps, rods):
+        of = {"integrator": of_steps(steps), "liner__rods_per_round": rods, "contact": contact}
+        case = scene(**RUBBING | of, rounds=6)
+        run = Case(case, coarse_rom, set_up(case, coarse_rom)).march()
+        values = numbers(run, 2)
+        assert run.outcome.status == "ok" and values.keys() == NUMBERS.keys() - OF_TAPER
+        return values
+
+    finest = found(8192, 8209)
+    for steps, rods in ((768, 353), (768, 4093), (1280, 511), (2560, 353), (2560, 1021)):
+        assert found(steps, rods) == pytest.approx(finest, rel=0.01), (steps, rods)

@@ -2,7 +2,6 @@
 
 from contextlib import nullcontext
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -82,13 +81,15 @@ def test_a_rough_casing_is_passed_in_its_wide_windows(coarse_rom):
     [
         (bumps(12) | {"halving": True}, 0.3, "the closest part of the casing is passed in"),
         ({}, SLOW, "the first mode has"),
+        ({"liner__footprint_m": 2.5e-3, **bumps(1)}, 0.3, "the tip passes 2.21 of"),
         # with half a step a period of the first mode still has ten
         (bumps(1) | {"halving": True}, 0.15, "the first mode has 9"),
     ],
 )
 def test_a_step_too_long_is_refused_with_the_least_steps(coarse_rom, changes, over_f1, what):
-    error = refused(SceneError, check, exact(64, **changes), coarse_rom, over_f1, match=what)
-    assert (error.key, error.value) == ("integrator.steps_per_round", 64)
+    steps = 640 if "liner__footprint_m" in changes else 64
+    error = refused(SceneError, check, exact(steps, **changes), coarse_rom, over_f1, match=what)
+    assert (error.key, error.value) == ("integrator.steps_per_round", steps)
     least = error.allowed["ge"]
     assert least % 64 == 0
     check(exact(least, **changes), coarse_rom, over_f1)
@@ -111,7 +112,8 @@ def test_what_is_refused_would_be_wrong(coarse_rom):
     ("steps", "changes", "over_f1"),
     [
         (64, bumps(12, 0.9), SLOW),  # out of reach
-        (640, {"halving": True}, SLOW),  # which replaces the look at the first mode
+        (640, {"halving": True}, SLOW),  # which replaces the look at the first mode,
+        (640, {"halving": True, "liner__footprint_m": 2e-3}, 0.3),  # and that at the footprint
         (64, bumps(1) | {"halving": True}, 0.17),  # with ten steps in its period
     ],
 )
@@ -135,7 +137,7 @@ def test_a_run_alone_that_has_lost_energy_is_inaccurate(coarse_rom, case, limit)
     assert lossy(0.05).ledger.numerical == pytest.approx(-0.5)
 
     def status(of, **errors):
-        setup = SimpleNamespace(steps=640)
+        setup = set_up(case, coarse_rom)
         return judged(Run(case, coarse_rom, setup, outcome=of, errors=errors)).outcome.status
 
     # what is created is `unstable` from a tenth on
