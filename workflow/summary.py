@@ -4,7 +4,7 @@ One row for each peak, with the uncertainty of each number or that it is not kno
 """
 
 from collections.abc import Iterable, Mapping, Sequence
-from itertools import chain
+from itertools import chain, zip_longest
 from math import ceil, isfinite, nan
 from pathlib import Path
 from textwrap import wrap
@@ -367,14 +367,12 @@ def columns(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
     Heads that are longer than the cells below them have several lines.
     """
     body = [*map(list, rows)]
-    longest = [max(map(len, cells)) for cells in zip(*body, strict=True)] or [0] * len(heads)
     wrapped = [
-        wrap(head, max(width, *map(len, head.split()), 1))
-        for head, width in zip(heads, longest, strict=True)
+        wrap(head, max(map(len, ["-", *head.split(), *cells])))
+        for head, *cells in zip(heads, *body, strict=True)
     ]
-    lines = max(map(len, wrapped))
-    above = zip(*([""] * (lines - len(head)) + head for head in wrapped), strict=True)
-    table = [*map(list, above), *body]
+    above = zip_longest(*(head[::-1] for head in wrapped), fillvalue="")  # from the lowest line
+    table = [*map(list, above)][::-1] + body
     widths = [max(map(len, cells)) for cells in zip(*table, strict=True)]
     return [
         "  ".join(
@@ -392,8 +390,8 @@ def shown(scene: Mapping[str, Any]) -> list[tuple[list[str], list[list[str]]]]:
     motion, loads = (
         [column for column in kept if (column.name in second) is among] for among in (False, True)
     )
-    courses = [row["course"] for row in rows if row["course"].get("trend") != STEADY]
-    most = max((ceil(course.get("rounds", 0)) for course in courses), default=0)
+    moving = (row["course"] for row in rows if row["course"].get("trend") != STEADY)
+    most = max((ceil(course.get("rounds", 0)) for course in moving), default=0)
 
     def heads(columns: Iterable[Column]) -> list[str]:
         """Heads, with the revolutions after which numbers are told that change further."""
@@ -473,8 +471,8 @@ def _end_of_run(row: PeakRow) -> list[str]:
     texts = [
         markdown.cell(number) if number is None or isfinite(number) else "-" for number in numbers
     ]
-    steady = course.get("trend") == STEADY and "rounds" in course
-    after = f" (after {course['rounds']:.0f} rev.)" if steady else ""
+    at = course.get("trend") == STEADY and course.get("rounds")
+    after = f" (after {at:.0f} rev.)" if at else ""
     return [stress_told.growing(course) + after, *texts]
 
 

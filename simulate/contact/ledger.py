@@ -27,7 +27,7 @@ Blade alone: energy(end) - energy(start) + damping = work, to round-off, with
 from dataclasses import dataclass
 
 from simulate.contact.compiled import compiled, compiled_not_inlined
-from simulate.contact.strips import covered_part, offset, uncovered
+from simulate.contact.strips import covered_part, offset, part_ahead
 
 CASING, PLASTIC, RELEASED, WORK, DAMPING, FRICTION, HEAT = range(7)
 ENERGIES = 7
@@ -97,8 +97,12 @@ def book_released(strips, covered, i, j, passed, a, energies):
         gained += max(change, 0.0) * rods[i, k].stored
     slid = ahead + passed - strip.passed
     if abs(slid) > strips.length[i] - 1:
-        first = offset(strips, strip.low, strip.passed)
-        both = come_and_gone(rods[i, strip.low : strip.high], first, slid, strips.length[i])
+        both = come_and_gone(
+            rods[i, strip.low : strip.high],
+            offset(strips, strip.low, strip.passed),
+            slid,
+            strips.length[i],
+        )
         released += both
         gained += both
     volume, fresh = strips.area[i] * strips.thickness, 0
@@ -130,7 +134,8 @@ def come_and_gone(rods, first, slid, length):
     """
     energy = 0.0
     for k in range(len(rods)):
-        ahead, behind = uncovered(first + k, length)
-        ahead_now, behind_now = uncovered(first + k - slid, length)
-        energy += min(abs(ahead_now - ahead), abs(behind_now - behind)) * rods[k].stored
+        x = first + k
+        ahead = abs(part_ahead(x - slid, length) - part_ahead(x, length))
+        behind = abs(part_ahead(slid - x, length) - part_ahead(-x, length))
+        energy += min(ahead, behind) * rods[k].stored
     return energy

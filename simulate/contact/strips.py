@@ -121,10 +121,9 @@ def covered_part(strips, i, k, passed):
 
 
 @compiled
-def uncovered(x, length):
-    """Parts of a rod, ``x`` rods from the camber line, ahead of the footprint and behind it."""
-    beyond = (1 - length) / 2
-    return min(max(beyond + x, 0.0), 1.0), min(max(beyond - x, 0.0), 1.0)
+def part_ahead(x, length):
+    """Part of a rod, ``x`` rods from the camber line, that lies ahead of the footprint."""
+    return min(max((1 - length) / 2 + x, 0.0), 1.0)
 
 
 @compiled

@@ -1,9 +1,9 @@
 """Which runs of a sweep or a design are checked by second runs.
 
 First that of the largest response, then by risk, while they take no more than a share of the steps
-of all runs. One risky run is checked beyond that where nothing is overdrawn: so one that stands
-alone is. Beside a run found wrong, or that its check has cleared of what its energies said of it,
-its neighbours in speed are checked, whatever that takes.
+of all runs. One run in contact is checked beyond that where nothing is overdrawn, so one that
+stands alone. Beside a run found wrong, or cleared of what its energies said, its neighbours in
+speed are checked, whatever that takes.
 """
 
 from collections.abc import Sequence
@@ -13,7 +13,7 @@ from time import perf_counter
 from geometry.project import Say, silent
 from simulate.errors.neighbours import TWICE, judged
 from simulate.errors.observables import last_spectrum
-from simulate.errors.resolution import RISKY, risk
+from simulate.errors.resolution import risk
 from simulate.errors.run import Run
 from simulate.marching import TO_THE_END
 
@@ -31,15 +31,14 @@ def checked(
     queue, next_to_wrong, any_yet = _in_turn(ordered) if share else [], set(), False
     while queue:
         run, begun = ordered[i := queue.pop(0)], perf_counter()
-        one_more = budget >= 0 and not any_yet and risk(run) > RISKY
+        one_more = budget >= 0 and not any_yet and risk(run) > 0
         if not (budget >= TWICE * run.steps or one_more or i in next_to_wrong):
             continue
         new, any_yet = judged(run, check=True), True
         budget -= new.steps - run.steps
         ordered[i] = replace(new, seconds=run.seconds + perf_counter() - begun)
         report(f"{ordered[i].line}; checked, error {new.largest_error:.2g}")
-        found = run.outcome.status, new.outcome.status
-        if "inaccurate" in found or new.setup.h != run.setup.h:
+        if "inaccurate" in (run.outcome.status, new.outcome.status) or new.setup.h != run.setup.h:
             next_to_wrong |= {i - 1, i + 1}
             queue.sort(key=lambda j: j not in next_to_wrong)
     return ordered, budget

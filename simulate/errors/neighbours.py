@@ -176,8 +176,7 @@ def _in_doubt(
     first, quarter = differences(run, half, neither=inf), march_second(QUARTER)
     found = result, _, bound = from_shorter(run, half, quarter)
     grows = from_shorter(run, half, quarter, first)[-1] > STATED
-    unsure = run.scene.halving or result is quarter or grows
-    if bound > STATED or not unsure:
+    if bound > STATED or not (run.scene.halving or result is quarter or grows):
         return found
     before = differences(half, quarter, neither=inf)
     return from_shorter(run, quarter, march_second(EIGHTH), before)

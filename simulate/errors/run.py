@@ -19,9 +19,8 @@ def as_long(scene: Scene, rounds: float) -> Scene:
     if scene.until is None:
         return scene
     whole = max(ceil(rounds), scene.record.rounds_of_spectrum)
-    states = scene.record.states_rounds
-    record = {"states_rounds": states and min(states, whole)}
-    return scene.but(until=None, rounds=whole, record=record)
+    states = min(scene.record.states_rounds or 0, whole) or None
+    return scene.but(until=None, rounds=whole, record__states_rounds=states)
 
 
 @dataclass(frozen=True)

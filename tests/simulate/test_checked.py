@@ -12,7 +12,7 @@ from simulate import Runs
 from simulate.contact.ledger import Ledger
 from simulate.errors import checked as module
 from simulate.errors.checked import checked
-from simulate.errors.resolution import LEAST_LOST, LOST, PERIOD, RISKY, risk
+from simulate.errors.resolution import LEAST_LOST, LOST, PERIOD, risk
 from simulate.errors.run import Run
 from simulate.sweeps.closing_in import sweep
 from simulate.sweeps.dataset import checks
@@ -65,10 +65,10 @@ def test_the_largest_response_is_first_then_the_risk_within_the_share(tried):
     assert tried(runs, RISKS, share=0.0) == ([], 0.0)
 
 
-def test_a_run_that_stands_alone_is_checked_where_it_is_risky(tried):
-    assert tried([run_of(1)], {1: 2 * RISKY}, share=0.1) == ([1], -40.0)
-    assert tried([run_of(1)], {1: 0.5 * RISKY}, share=0.1) == ([], 10.0)
-    assert tried([run_of(1)], {1: 2 * RISKY}, share=0.1, budget=-11.0) == ([], -1.0)
+def test_a_run_that_stands_alone_is_checked_where_it_touches(tried):
+    assert tried([run_of(1)], {1: 1e-9}, share=0.1) == ([1], -40.0)
+    assert tried([run_of(1)], {1: 0.0}, share=0.1) == ([], 10.0)
+    assert tried([run_of(1)], {1: 1e-9}, share=0.1, budget=-11.0) == ([], -1.0)
     assert tried([run_of(1)], {1: 0.0}, share=0.1, budget=40.0) == ([1], 0.0)
     two = [run_of(1), run_of(2)]
     assert tried(two, dict.fromkeys((1, 2), 1.0), share=0.1) == ([1], -30.0)
@@ -85,13 +85,12 @@ def test_runs_that_ended_early_are_not_checked(tried):
     assert tried(runs, {1: inf, 2: 1.0, 3: inf}, share=1.0)[0] == [2]
 
 
-def alone(steps_a_period, lost, status="ok", contact=0.5, scheme="piecewise-exact", passes=0.5):
-    """A run of which the facts for its risk are known; it ``passes`` footprints in a step."""
+def alone(steps_a_period, lost, status="ok", contact=0.5, scheme="piecewise-exact"):
+    """A run of which the facts for its risk are known."""
     outcome = SimpleNamespace(
         status=status, contact_share=contact, ledger=Ledger(1.0, 1.0 - lost, 0, 0, 0, 0, 0)
     )
-    strips = SimpleNamespace(advance=passes, length=np.ones(2), lengthened=np.ones(2))
-    setup = SimpleNamespace(omega=np.array([2 * np.pi, 9e9]), h=1 / steps_a_period, strips=strips)
+    setup = SimpleNamespace(omega=np.array([2 * np.pi, 9e9]), h=1 / steps_a_period)
     return Run(
         SimpleNamespace(stepping=SimpleNamespace(scheme=scheme)), None, setup, outcome=outcome
     )
@@ -109,7 +108,6 @@ def test_the_risk_is_one_where_both_facts_are_at_their_limits(scheme):
 
 def test_the_risk_of_a_stopped_run_is_infinite_and_without_contact_there_is_none():
     assert risk(alone(1e6, 0.1, status="inaccurate")) == inf
-    assert risk(alone(1e6, 0.0, passes=1.1)) == inf > risk(alone(1e6, 0.0, passes=1.0))
     assert risk(alone(PERIOD, 0.0, contact=0.0)) == 0
 
 
