@@ -154,10 +154,13 @@ def draw_changing(number: int, drawing: Drawing) -> Case:
 def draw_long(number: int, drawing: Drawing) -> Case:
     """Case ``number`` by piecewise-exact with steps in which the tip passes 1 to 4 footprints.
 
-    At speeds at which such steps may resolve the first mode.
+    At speeds at which such steps may resolve the first mode; with at most some 20 rods in a
+    footprint, as many more in a step take hours with the steps of a reference.
     """
     case, dice = draw(number, drawing), _Dice(np.random.PCG64([drawing.seed, number, 2]))
-    scene = {**case.scene, "speeds": {"over_f1": [dice.uniform(0.1, 0.4)]}}
+    rods = {"rods_per_round": min(case.scene["liner"]["rods_per_round"], 16381)}
+    speed = {"over_f1": [dice.uniform(0.1, 0.4)]}
+    scene = {**case.scene, "speeds": speed, "liner": {**case.scene["liner"], **rods}}
     return replace(case, scene=scene, scheme=EXACT, footprints=dice.decades(1, 4))
 
 
