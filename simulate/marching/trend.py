@@ -80,20 +80,13 @@ class Rounds:
     @property
     def largest(self) -> tuple[float, float]:
         """Largest ``|u_r|``, m, and the number of its revolution, from 1; nan if none is whole."""
-        of_rounds = self._farthest
-        return (
-            (float(of_rounds.max()), float(of_rounds.argmax() + 1))
-            if len(of_rounds)
-            else (
-                nan,
-                nan,
-            )
-        )
+        far = self._farthest
+        return (float(far.max()), float(far.argmax() + 1)) if len(far) else (nan, nan)
 
     @property
     def last(self) -> float:
         """Largest ``|u_r|`` in the last revolution, m; nan if none is whole."""
-        return float(of_rounds[-1]) if len(of_rounds := self._farthest) else nan
+        return float(far[-1]) if len(far := self._farthest) else nan
 
     @property
     def _farthest(self) -> NDArray[np.float64]:
