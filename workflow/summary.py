@@ -65,7 +65,10 @@ COLUMNS = (  # of the numbers of ``sweeps.peak_results``
 PLACES = dict(zip(JUDGED, ("", " at ξ = 15/16", " at ξ = 1/2"), strict=True))
 LOADS = {"opening", "force", "force_peak", "torque"}  # numbers of the second table
 # numbers that change further in a run that is not steady
-GO_ON = {"amplitude", "displacement_last", "wear", "worn_volume", "opening"}
+GO_ON = {
+    *("amplitude", "displacement_last", "u_t_leading", "u_t_trailing"),
+    *("wear", "worn_volume", "opening"),
+}
 AT_END = ("at the end", "τ rev.", "mm³/rev.")  # heads
 MEANING = {  # of the columns
     "amplitude": "of the tip's radial displacement at ξ = 1/16, along the engine order EO, or of a "

@@ -16,13 +16,13 @@ one with half of it.
 A bound with such a factor stops runs that are right by little, and of two runs no order can be
 seen. So in doubt a third run takes a quarter of the step. By order one the error is 4/3 of the
 change to it, and its own error is the change by the last halving: the bounds are 1.3 and 2 times
-these. Where the third run is within its bound and the run is not, it is the result.
+these.
 
 On stiff liners long steps agree before they resolve the fast modes that contact excites: changes
 fall first, then grow. So an eighth of the step confirms what a quarter has found where the quarter
-would be the result, where the change to it is larger than that before, and with `halving`. Where
-its change is larger again, the bounds are of one that goes on so: of 700 drawn runs that a quarter
-let through five were wrong by 12 to 25 % (peak force, vibration), of which it stops all.
+is within its bound and the run is not, where the change to it is larger than that before, and with
+`halving`. Where the change is larger again, the bounds are of one that goes on so. Where the eighth
+is within its bound and the run is not, it is the result.
 
 A contact shorter than a step may be seen, or missed, by both runs alike, since they share every
 second instant. Its steps then are as many in both, though the time in contact should be the same:
@@ -101,7 +101,7 @@ def judged(run: Run, accurate: bool = True, check: bool = False) -> Run:
 
     ``accurate``: whether the errors that it has are within its ``accuracy``. ``check``: bound the
     error of its step, by twice the step where that is enough, else as with `halving`, and by a
-    twin. Where only a quarter of the step converges, its run is the result. A run without second
+    twin. Where only an eighth of the step converges, its run is the result. A run without second
     runs and errors may lose less energy (``resolution``).
     """
     marched = [
@@ -120,6 +120,7 @@ def judged(run: Run, accurate: bool = True, check: bool = False) -> Run:
     reason = outcome.reason if verdict == outcome.status else ""
     return replace(
         result,
+        scene=run.scene,  # that of a second run does not end where it is steady
         outcome=replace(outcome, status=verdict, reason=reason),
         steps=run.steps
         + sum(each.outcome.rounds * each.setup.steps for each in marched[bool(run.steps) :]),
@@ -132,7 +133,8 @@ def _from_second_runs(
     """The run, or that in its place, with what second runs find; the bound that counts."""
     errors, bound, departures = run.errors, 0.0, run.departures
     ended = run.outcome.status in TO_THE_END
-    long = footprints_passed(run.setup) > 1  # two of such steps that agree are no proof
+    # two steps that agree are no proof
+    long = run.outcome.contact_share > 0 and footprints_passed(run.setup) > 1
     doubtful = ended and (run.scene.halving or (check and long))
     if check and ended and not doubtful:
         errors, bound = from_twice(run, march_second)
@@ -175,11 +177,13 @@ def _in_doubt(
     """What a quarter of the step finds, as ``from_shorter``, where it is unsure what an eighth."""
     first, quarter = differences(run, half, neither=inf), march_second(QUARTER)
     found = result, _, bound = from_shorter(run, half, quarter)
-    grows = from_shorter(run, half, quarter, first)[-1] > STATED
-    if bound > STATED or not (run.scene.halving or result is quarter or grows):
+    if bound > STATED or not (
+        run.scene.halving
+        or result is quarter
+        or from_shorter(run, half, quarter, first)[-1] > STATED  # changes grow
+    ):
         return found
-    before = differences(half, quarter, neither=inf)
-    return from_shorter(run, quarter, march_second(EIGHTH), before)
+    return from_shorter(run, quarter, march_second(EIGHTH), differences(half, quarter, neither=inf))
 
 
 def from_shorter(
@@ -192,7 +196,7 @@ def from_shorter(
     """
     errors, bound = _against(run, longer, OF_HALF)
     if isfinite(bound):
-        errors, bound = _against(run, shorter, OF_EIGHTH if before else OF_QUARTER)
+        errors, bound = _against(run, shorter, OF_QUARTER if before is None else OF_EIGHTH)
     finer, of_finer = _against(shorter, longer, LAST_HALVING)
     for name in before or ():
         if finer[name] > LAST_HALVING * before[name]:

@@ -110,8 +110,9 @@ class Scene(SettingsFile):
     )
     halving: bool = Field(
         default=False,
-        description="Check each speed, with half the step, in doubt with a quarter; where that "
-        "converges alone it is the result, else a run with a bound above 10 % is `inaccurate`",
+        description="Check each speed, with half the step, in doubt with a quarter and an eighth; "
+        "where that converges alone it is the result, else a run with a bound above 10 % is "
+        "`inaccurate`",
     )
     design: str | None = Field(
         default=None,

@@ -28,7 +28,7 @@ STEP, MODE_STRIP, ROD_STRIP = 1e-7, 3.5e-10, 4e-9  # s a step; and for each mode
 LONG, MUCH = 3600.0, 0.5  # s, and share of the machine's memory, from which it is warned
 SINGLE, DOUBLE = 4, 8  # bytes
 FEW_RODS = 4096  # as few as serve for a limit
-# Keys of a scene for second runs. Neither checks nor a quarter of the step are counted, which may
+# Keys of a scene for second runs. Neither checks nor shorter steps than half are counted, which may
 # follow half the step.
 SECOND_RUNS = {"twin": TWIN, "halving": HALF}
 

@@ -42,7 +42,7 @@ from simulate.marching.friction import growth_rate, mu_crit
 from simulate.marching.setup import sliding_modes, with_lean
 from simulate.marching.states import every
 from simulate.marching.trend import further
-from simulate.scene import GROWING, LEADING, Scene
+from simulate.scene import GROWING, LEADING, OF_LAST_ROUNDS, Scene
 from simulate.scene.laws.table import Tabulated
 from simulate.sweeps.plain import Course
 
@@ -297,7 +297,9 @@ def _require_runs(runs: xr.Dataset) -> None:
         asked = (names for key, names in RECORDED.items() if scene["record"].get(key))
         must = [*ALWAYS, *chain(*asked)]
     held = {name: axes for name, axes in dims.items() if name in must or name in runs.variables}
-    require_numbers(runs, held, STATUSES, WITH_RESULT, {*held})
+    # nan after the end of runs that end where they are steady
+    over_time = chain(*(RECORDED.get(key, ()) for key in OF_LAST_ROUNDS if scene.get("until")))
+    require_numbers(runs, held, STATUSES, WITH_RESULT, {*held}.difference(over_time))
 
 
 def require_numbers(
@@ -464,13 +466,14 @@ def course(run: xr.Dataset) -> Course:
         return {"trend": run["trend"].item()}
     worn = run["worn"].values[: int(run["rounds"])]
     place: Course = {"place": run["place"].item()} if "place" in run else {}
-    if run["trend"].item() == GROWING and not _goes_on(scene_of(run)):
-        swing = np.diff(run["extremes"].values[: len(worn)], axis=1)[:, 0]
-        swing = swing[scene_of(run).casing.changes_until :]
-        place |= {"grows": further(swing), "grows_in": len(swing)}
+    if not _goes_on(scene := scene_of(run)):
+        place["rounds"] = run["rounds"].item()
+        if run["trend"].item() == GROWING:
+            swing = np.diff(run["extremes"].values[: len(worn)], axis=1)[:, 0]
+            swing = swing[scene.casing.changes_until :]
+            place |= {"grows": further(swing), "grows_in": len(swing)}
     return place | {
         "trend": run["trend"].item(),
-        "rounds": run["rounds"].item(),
         "time_constant": run["time_constant"].item(),
         "largest_round": run["largest_round"].item(),
         "wears": float(worn[-ceil(len(worn) / 4) :].mean()),
@@ -493,7 +496,7 @@ def over_f1(Omega: NDArray[np.float64], rom: Rom) -> NDArray[np.float64]:
 def _of_march(run: Run) -> dict[str, Any]:
     """Variables of every run: its set-up, how it ended, and numbers of its revolutions."""
     setup, outcome = run.setup, run.outcome
-    speed, nu = np.array([setup.Omega]), len(setup.strips.d)
+    speed, nu, rounds = np.array([setup.Omega]), len(setup.strips.d), run.scene.rounds
     largest, number = outcome.each.largest
     timed = {"u_t": outcome.u_t, "edge": [*EDGES]} if outcome.u_t.size else {}
     return ({"place": outcome.edge, **timed} if len(setup.edges) > 1 else {}) | {
@@ -519,9 +522,9 @@ def _of_march(run: Run) -> dict[str, Any]:
         "time_constant": outcome.time_constant,
         "displacement": largest,
         "largest_round": number,
-        "extremes": outcome.each.extremes.astype(np.float32),
-        "worn": outcome.each.worn,
-        "round": np.arange(1, len(outcome.each.worn) + 1),
+        "extremes": _filled(outcome.each.extremes, rounds).astype(np.float32),
+        "worn": _filled(outcome.each.worn, rounds),
+        "round": np.arange(1, rounds + 1),
         "bound": ["least", "largest"],
     }
 
@@ -642,12 +645,12 @@ def _of_forces(run: Run) -> dict[str, Any]:
     """Forces, and the torque where there is one, in each revolution; nan where not computed."""
     scene, outcome = run.scene, run.outcome
     values = {
-        "force_peak": outcome.force_peak,
-        "force_mean": outcome.force_mean,
+        "force_peak": _filled(outcome.force_peak, scene.rounds),
+        "force_mean": _filled(outcome.force_mean, scene.rounds),
         "share": (np.arange(SHARES) + 0.5) / SHARES,
     }
     if scene.contact.along:
-        values["force_tangential_mean"] = outcome.force_tangential_mean
+        values["force_tangential_mean"] = _filled(outcome.force_tangential_mean, scene.rounds)
     if not scene.no_torque:
         values["torque"] = torque_of_rounds(scene, run.rom, outcome)
     return values

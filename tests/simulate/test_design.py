@@ -288,7 +288,7 @@ def test_modes_of_shared_speeds_are_found_once(coarse_rom, tmp_path, monkeypatch
 
 
 def test_checks_take_a_tenth_of_the_steps_of_rows_run_together(coarse_rom, tmp_path):
-    """Of rows with a single speed the first, which is risky, then every fifth."""
+    """Of rows with a single speed the first, which touches, then every fifth."""
     rows = [f'{0.3 + row / 100},"[0.31]"' for row in range(12)]
     table = "\n".join(["liner.law.K,speeds.over_f1", *rows, ""])
     case = design(tmp_path, table, check=0.1, integrator=of_steps(768))  # less than a footprint

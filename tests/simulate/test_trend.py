@@ -20,7 +20,7 @@ from simulate.marching.trend import FEWEST, Rounds, looks, time_constant, trend
 from simulate.scene import DYING_OUT, GROWING, STEADY, TOO_SHORT, TRENDS, Scene
 from simulate.sweeps.closing_in import sweep
 from simulate.sweeps.crossings import crossing
-from simulate.sweeps.dataset import course, of_run
+from simulate.sweeps.dataset import SPEED, course, load, of_run, save
 from simulate.sweeps.peak import Peak
 from simulate.sweeps.peak_results import case_of, to_march
 
@@ -191,11 +191,15 @@ def test_a_ramp_ends_where_it_takes_its_last_value():
     assert scene(casing__ramp_rounds=None, casing__ramp=still).casing.changes_until == 0
 
 
-def test_what_is_recorded_over_time_is_that_of_as_many_rounds(coarse_rom):
-    """To the last bit: histories from the start, all else of the last rounds, in order."""
+def test_what_is_recorded_over_time_is_that_of_as_many_rounds(coarse_rom, tmp_path):
+    """To the last bit: histories from the start, all else of the last rounds, in order.
+
+    The file is read though nothing was computed after a run.
+    """
     record = RUB["record"] | {"states_rounds": 3, "motion": 3, "history": {"chord": [0.5]}}
     case = scene(**RUB | {"record": record}, rounds=200, until="steady", speeds={"over_f1": [0.3]})
-    until = sweep(case, coarse_rom)
+    save(sweep(case, coarse_rom), tmp_path / "sweep.nc")
+    until = load(tmp_path / "sweep.nc")
     rounds = int(until["rounds"].item())
     assert until["trend"].item() == STEADY and rounds < 200
     same = sweep(case.but(until=None, rounds=rounds), coarse_rom)
@@ -209,6 +213,24 @@ def test_what_is_recorded_over_time_is_that_of_as_many_rounds(coarse_rom):
     for time in ("time", "motion_time"):  # runs end at times of their own
         np.testing.assert_allclose(until[time] + rounds, same[time], rtol=1e-12)
         assert "since the end" in until[time].attrs["long_name"]
+
+
+def test_a_run_that_shorter_steps_mend_has_the_times_of_its_sweep(coarse_rom, tmp_path):
+    """All but one run of a sweep until steady are of its own steps; all end at 0."""
+    stiff = {"kind": "plastic", "E": 100.0, "K": 45.0, "sigma_Y": 1e-8, "unit_Pa": 2e9}
+    record = RUB["record"] | {"motion": 3, "states_rounds": 3, "history": {"chord": [0.5]}}
+    speeds = {"over_f1": {"first": 0.26, "last": 0.34, "count": 12}}
+    of = {"record": record, "speeds": speeds, "liner__law": stiff, "damping_ratio": 0.02}
+    of |= {"liner__rods_per_round": 2039, "integrator": of_steps(1280), "check": 0.1}
+    save(sweep(scene(**RUB | of, rounds=60, until="steady"), coarse_rom), tmp_path / "sweep.nc")
+    runs = load(tmp_path / "sweep.nc")
+    mended = runs.steps_per_round > 1280
+    assert mended.any() and len({*runs.rounds.values}) > 1
+    assert runs.motion_time.values[-1] == 0 and len(runs.motion_time) == 64
+    assert runs.sizes["round"] == 60 and np.isfinite(runs.motion[mended]).all()
+    for name in ("worn", "torque", "force_peak"):
+        known = np.isfinite(runs[name]).all([*{*runs[name].dims} - {SPEED, "round"}])
+        np.testing.assert_array_equal(known.sum("round"), runs.rounds)
 
 
 def test_second_runs_record_no_more_states_than_the_run(coarse_rom):

@@ -307,11 +307,12 @@ def heads(found):
 def test_heads_say_after_how_many_revolutions_what_goes_on_is_told(summed, trend):
     """Unless all is steady, also of a run that may end before; not of the largest, nor of means."""
     course = ANSWER["course"] | {"trend": trend, "rounds": 34.0}
-    last = {"numbers": NUMBERS | {"displacement_last": 6e-5}}
+    last = {"numbers": NUMBERS | {"displacement_last": 6e-5, "u_t_leading": 2e-5}}
     steady = ANSWER | {"course": ANSWER["course"] | {"rounds": 12.0}}
     found = summed(peaks=[ANSWER | last | {"course": course}, steady])
     after = [head for head in heads(found) if head.endswith(" after 34 revolutions")]
-    named = ["amplitude µm", "last µm", "wear µm", "worn mm³", "mean worn depth µm"]
+    named = ["amplitude µm", "last µm", "u_t at 1/16 µm", "wear µm", "worn mm³"]
+    named += ["mean worn depth µm"]
     assert [head.removesuffix(" after 34 revolutions") for head in after] == (
         [] if trend == "steady" else named
     )

@@ -274,7 +274,7 @@ function drawSignal(codes) {
   const at = range(u.length, (i) => i).filter((i) => !Number.isNaN(u[i])); // a state for each picture of the motion
   const trace = { x: at.map((i) => facts.signal_time[i]), y: at.map((i) => u[i]), mode: "lines", line: { color: "#000", width: 1 } };
   return plot("signal", [trace], {
-    ...titled(SIGNAL), xaxis: axis(`time (revolutions), ${at.length} states`), yaxis: axis(length("u_r")),
+    ...titled(SIGNAL), xaxis: axis(`time (revolutions${facts.at_most && ", 0 at the end of the run"}), ${at.length} states`), yaxis: axis(length("u_r")),
   });
 }
 

@@ -11,7 +11,7 @@ from workflow.figures import lines, units
 
 KINDS = {
     "As plain runs (`check: 0`)": "plain",
-    "By default, risky runs checked": "default",
+    "By default, runs in contact checked": "default",
     "With `twin: true` and `halving: true`": "checked",
 }
 ERRORS = {"0.01": "1 %", "0.1": "10 %"}

@@ -148,7 +148,7 @@ class End:
     """Outcome of a case."""
 
     plain: Verdict
-    default: Verdict  # with a check where it is risky, as of a sweep of one speed
+    default: Verdict  # with a check where it touches, as of a sweep of one speed
     checked: Verdict  # with all checks
     message: str = ""  # of a refusal
     steps: int = 0  # marched
