@@ -198,8 +198,8 @@ def from_shorter(
     if isfinite(bound):
         errors, bound = _against(run, shorter, OF_QUARTER if before is None else OF_EIGHTH)
     finer, of_finer = _against(shorter, longer, LAST_HALVING)
-    for name in before or ():
-        if finer[name] > LAST_HALVING * before[name]:
+    for name, change in (before or {}).items():
+        if finer[name] > LAST_HALVING * change:
             finer[name] *= GROWING / LAST_HALVING
             errors[name] = max(errors[name], errors[name] / OF_EIGHTH + finer[name])
     bound, of_finer = max(bound, *errors.values()), max(of_finer, *finer.values())
