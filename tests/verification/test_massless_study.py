@@ -94,7 +94,7 @@ def test_errors_are_those_that_the_page_computes(casing):
 def test_long_steps_at_the_peak_are_found_by_checks_alone(coarse_rom, law):
     """On the coarse blade with its eight patches: an error of over 20 % that no energy tells.
 
-    By default, too: four times the steps are enough on the plastic liner.
+    By default, too: eight times the steps are enough on the plastic liner.
     """
     of = rub(coarse_rom, law, PEAK, blade="coarse", liner__strips=8)
     assert error(exact(of, 512), exact(of, 32768)) > 0.2
@@ -104,6 +104,6 @@ def test_long_steps_at_the_peak_are_found_by_checks_alone(coarse_rom, law):
     )
     assert alone.status.item() == "ok"
     for found in checked:
-        mended = found.steps_per_round.item() == 4 * 512
+        mended = found.steps_per_round.item() == 8 * 512
         assert found.status.item() == ("ok" if mended else "inaccurate")
         assert mended == (law["kind"] == "plastic")
