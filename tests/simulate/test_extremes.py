@@ -16,7 +16,14 @@ from geometry.blade import EnrichedBasis
 from geometry.hats import middles
 from rom.reduce import reduce
 from simulate.errors.neighbours import EIGHTH, HALF, QUARTER, TWICE
-from tests.simulate.stability.cases import BEFORE, FIRST_STRIP_DEG, draw, draw_changing, now
+from tests.simulate.stability.cases import (
+    BEFORE,
+    FIRST_STRIP_DEG,
+    draw,
+    draw_changing,
+    draw_long,
+    now,
+)
 from tests.simulate.stability.matrix import End, Verdict, counts, judge_case
 from workflow.study.stability import extremes, sweeps
 
@@ -63,20 +70,26 @@ def changing(rom, every):
     return [judge_case(draw_changing(i, NOW), rom) for i in range(0, CHANGING, every)]
 
 
+@pytest.fixture(scope="module")
+def long(rom, every):
+    """Cases with steps in which the tip passes more than its footprint."""
+    return [judge_case(draw_long(i, NOW), rom) for i in range(0, CHANGING, every)]
+
+
 def verdicts(ends, kind):
     return [end for end in ends if end.checked.kind == kind]
 
 
-@pytest.mark.parametrize("drawn", ["ends", "changing"])
+@pytest.mark.parametrize("drawn", ["ends", "changing", "long"])
 def test_no_case_is_silently_wrong(drawn, every, request):
-    """Neither plain ones nor those with friction or a changing casing; all outcomes occur."""
+    """Plain ones, those with friction or a changing casing, and long steps; all outcomes occur."""
     ends = request.getfixturevalue(drawn)
     wrong = verdicts(ends, "wrong")
     assert not wrong, [(end.checked, end.bound, end.error, end.spread) for end in wrong]
     assert len(verdicts(ends, "unjudged")) <= 3
     least = 10 // every
     assert min(len(verdicts(ends, kind)) for kind in ("right", "flagged", "refused")) >= least
-    assert sum(end.contact for end in verdicts(ends, "right")) >= least or drawn == "changing"
+    assert sum(end.contact for end in verdicts(ends, "right")) >= least or drawn != "ends"
     assert all("\n" not in end.message.strip() for end in verdicts(ends, "refused"))
 
 
