@@ -37,13 +37,17 @@ def torque_of_rounds(scene: Scene, rom: Rom, outcome: Outcome) -> NDArray[np.flo
 
     With a tangential force or friction the forces must have been recorded.
     """
+
+    def whole(computed: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Those of all revolutions that the scene may take."""
+        return np.concatenate([computed, np.full(scene.rounds - len(computed), np.nan)])
+
     if scene.contact.tangential:
-        return tangential_moment(outcome.force_tangential_mean, rom)
-    of_rounds = np.full(scene.rounds, np.nan)
-    of_rounds[: len(outcome.casing_work)] = torque(outcome.casing_work)
+        return whole(tangential_moment(outcome.force_tangential_mean, rom))
     if scene.contact.friction is None:
-        return of_rounds
-    return of_rounds + tangential_moment(outcome.force_tangential_mean, rom)
+        return whole(torque(outcome.casing_work))
+    moment = tangential_moment(outcome.force_tangential_mean, rom)
+    return whole(torque(outcome.casing_work)) + whole(moment)
 
 
 def tangential_moment(on_shares: NDArray[np.float64], rom: Rom) -> NDArray[np.float64]:

@@ -174,7 +174,7 @@ def from_twice(
 def _in_doubt(
     run: Run, half: Run, march_second: Callable[[Neighbour], Run]
 ) -> tuple[Run, dict[str, float], float]:
-    """What a quarter of the step finds, as ``from_shorter``, where it is unsure what an eighth."""
+    """What a quarter of the step finds, as of ``from_shorter``; an eighth where that is unsure."""
     first, quarter = differences(run, half, neither=inf), march_second(QUARTER)
     found = result, _, bound = from_shorter(run, half, quarter)
     if bound > STATED or not (

@@ -14,7 +14,8 @@ With half the step beside it a run may have a period of 10: below, all steps may
 
 Both facts together tell the risk of a run that is within these limits: few steps in a period, and
 energy lost. Its power is from 700 cases of one seed. It sorts the runs that are to be checked, and
-clears none: of 3000 cases with other seeds five wrong runs had less than most right ones.
+clears none: of 3000 cases (seeds 20261127, 20261130, 20261201 of ``draw``) five wrong runs had less
+than most right ones.
 """
 
 import numpy as np

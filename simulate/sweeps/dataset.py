@@ -465,14 +465,14 @@ def course(run: xr.Dataset) -> Course:
     if np.isnan(run["time_constant"]):
         return {"trend": run["trend"].item()}
     worn = run["worn"].values[: int(run["rounds"])]
-    place: Course = {"place": run["place"].item()} if "place" in run else {}
+    more: Course = {"place": run["place"].item()} if "place" in run else {}
     if not _goes_on(scene := scene_of(run)):
-        place["rounds"] = run["rounds"].item()
+        more["rounds"] = run["rounds"].item()
         if run["trend"].item() == GROWING:
             swing = np.diff(run["extremes"].values[: len(worn)], axis=1)[:, 0]
             swing = swing[scene.casing.changes_until :]
-            place |= {"grows": further(swing), "grows_in": len(swing)}
-    return place | {
+            more |= {"grows": further(swing), "grows_in": len(swing)}
+    return more | {
         "trend": run["trend"].item(),
         "time_constant": run["time_constant"].item(),
         "largest_round": run["largest_round"].item(),

@@ -56,7 +56,8 @@ OF_CONTACT = {  # numbers of a peak by their name in files, and that in ``NUMBER
     "force": "force_mean",
 }
 CLOSE = (-LAST, 0.0, LAST)
-# of the largest change of a run's numbers: in that of one errors of step and strips may cancel
+# of the largest change of a run's numbers: that of one may pass through zero, as where its errors
+# of step and strips cancel
 LEAST_PART = 1 / 3
 
 

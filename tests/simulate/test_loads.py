@@ -1,13 +1,21 @@
 """Force, torque and worn volume of a rigid blade, which meets the liner where the casing is."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from made_sweeps import made_rom
 from scenes import of_steps, scene
 
-from simulate.errors.loads import mean_force, mean_opening, tangential_moment, torque, worn_volume
+from simulate.errors.loads import (
+    mean_force,
+    mean_opening,
+    tangential_moment,
+    torque,
+    torque_of_rounds,
+    worn_volume,
+)
 from simulate.marching import march, prepare
 from simulate.sweeps import over_speeds
 from simulate.sweeps.over_speeds import as_sweep, at_speeds
@@ -118,6 +126,30 @@ def test_torque_of_a_tilted_tip_is_the_moment_of_its_tangential_force(rigid):
         assert moment == pytest.approx([against] * 2, rel=3e-3)
         errors.append(abs(torque(run.casing_work)[1] / against - 1))
     assert errors[1] < errors[0] / 3
+
+
+@pytest.mark.parametrize(
+    ("contact", "expected"),
+    [
+        ({"friction": 0.1}, [3.0, 5.0]),
+        ({"profile": {"tilt": 0.01}, "tangential": True}, [2.0, 3.0]),
+        ({}, [1.0, 2.0]),
+    ],
+    ids=["friction", "tangential", "flat"],
+)
+def test_torque_of_a_run_that_ended_before_is_known_as_far_as_it_went(rigid, contact, expected):
+    """As of one that shorter steps mend in a sweep until steady.
+
+    1 and 2 N m by work, 2 and 3 by the tangential force.
+    """
+    case = scene(**EXACT | {"rounds": 5, "contact": contact})
+    forces = np.zeros((2, 8))
+    forces[:, 3] = np.array([2.0, 3.0]) / rigid.line(np.array([3.5 / 8]))[0, 0]
+    work = 2 * np.pi * np.array([1.0, 2.0])
+    found = torque_of_rounds(
+        case, rigid, SimpleNamespace(casing_work=work, force_tangential_mean=forces)
+    )
+    np.testing.assert_allclose(found, [*expected, *[np.nan] * 3], rtol=1e-12)
 
 
 def test_torque_is_recorded_with_the_forces_and_alone_costs_no_variable(rigid, monkeypatch):
