@@ -12,6 +12,7 @@ from fem.prestress import linear_states, mass, nonlinear_states
 from fem.solid import Solid, read_solid
 from geometry.blade import Blade
 from geometry.project import Provenance, code_hash, file_hash
+from geometry.shape import source_of
 
 STATES = {"nonlinear": nonlinear_states, "linear": linear_states}
 
@@ -51,13 +52,13 @@ def over_speeds(
     solid = solid or read_solid(str(mesh_path), blade.material)
     interface = interface_of(solid, blade)
     hub = solid.clamped_coordinates()
+    settings, made_of = blade.settings_of_matrices(), source_of(mesh_path)
+    settings |= {"source": made_of} if made_of else {}
     constants = Constants(
         M=mass(solid),
         coordinates=solid.free_coordinates(),
         **vars(interface),
         span=float(interface.camber[:, 0].mean() - np.hypot(hub[:, 0], hub[:, 1]).mean()),
-        provenance=Provenance(
-            name, file_hash(mesh_path), blade.settings_of_matrices(), code_hash(*CODE)
-        ),
+        provenance=Provenance(name, file_hash(mesh_path), settings, code_hash(*CODE)),
     )
     return constants, STATES[blade.prestress](solid, speeds, cholesky)

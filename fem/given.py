@@ -18,8 +18,6 @@ from geometry.project import (
     about,
     code_hash,
     csv_rows,
-    file_hash,
-    fingerprint,
     known,
     numbers,
 )
@@ -65,7 +63,7 @@ def read_matrices(blade: GivenMatrices, name: str, folder: str | Path) -> Matric
     M = _symmetric(folder / files.M, "M", deck)
     K = tuple(_symmetric(folder / files.K[speed], "K", deck) for speed in blade.speeds)
     S, camber, sides = _interface(files, folder, deck, **blade.settings_of_matrices()["interface"])
-    hashes = [file_hash(folder / file) for file in blade.files]
+    of_files = blade.hash_of_files(folder)
     fom = Matrices(
         M=M,
         K=K,
@@ -79,9 +77,7 @@ def read_matrices(blade: GivenMatrices, name: str, folder: str | Path) -> Matric
         speeds=np.array(blade.speeds),
         u_static=np.full((len(K), M.shape[0]), np.nan),  # not known
         residuals=np.full(len(K), np.nan),
-        provenance=Provenance(
-            name, fingerprint(hashes), blade.settings_of_matrices(), code_hash(*CODE)
-        ),
+        provenance=Provenance(name, of_files, blade.settings_of_matrices(), code_hash(*CODE)),
     )
     _check(fom, files, folder)
     return fom

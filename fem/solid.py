@@ -15,8 +15,8 @@ from dolfinx.io.gmsh import model_to_mesh
 from dolfinx.mesh import Mesh
 
 from geometry.blade import Material
-from geometry.project import intact, known
-from geometry.shape import session
+from geometry.project import known
+from geometry.shape import merge, session
 
 BASIX_TO_VTK = np.array([0, 1, 2, 5, 3, 4])  # basix: the middles opposite the corners 0, 1, 2
 QUADRATURE = {"quadrature_degree": 4}  # exact for the P2 tangent on straight-sided tetrahedra
@@ -118,10 +118,10 @@ def read_solid(mesh_path: str, material: Material) -> Solid:
     Raises
     ------
     geometry.project.provenance.ProvenanceError
-        When the file is not as it was written.
+        When the file is no mesh, or not as it was written.
     """
     with session("make the mesh anew"):
-        gmsh.merge(str(intact(mesh_path)))
+        merge(mesh_path)
         data = model_to_mesh(gmsh.model, MPI.COMM_SELF, 0, gdim=3)
     V = fem.functionspace(data.mesh, ("Lagrange", 2, (3,)))
     data.mesh.topology.create_connectivity(2, 3)

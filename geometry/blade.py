@@ -1,12 +1,12 @@
 """Settings of a blade file: geometry, mesh, material, interface and reduction of a blade."""
 
 from math import inf, pi
-from pathlib import PurePath
+from pathlib import Path, PurePath
 from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 
-from geometry.project import Settings, SettingsError, SettingsFile, checked, one_of
+from geometry.project import Settings, SettingsError, SettingsFile, checked, file_hash, one_of
 
 RPM = 30 / pi  # of 1 rad/s
 RPM_PER_HZ = 60.0
@@ -499,6 +499,10 @@ class Blade(SettingsFile):
     def drawn(self) -> SourceFile:
         """Axes and unit of the geometry's file; without one those of `sections`: ours, in mm."""
         return self.source if self.file else SourceFile(file="", unit="mm")
+
+    def hash_of_files(self, folder: Path) -> str:
+        """Hash of the geometry file, which is in ``folder``; empty for `sections`."""
+        return file_hash(folder / self.file) if self.file else ""
 
     @property
     def file(self) -> PurePath | None:

@@ -24,6 +24,8 @@ from geometry.project import (
     SettingsError,
     SettingsFile,
     checked,
+    file_hash,
+    fingerprint,
     read_mapping,
 )
 
@@ -55,6 +57,10 @@ class GivenModel(SettingsFile):
     def settings_of_model(self) -> dict[str, Any]:
         """Settings on which the reduced model depends, besides its file."""
         return {}
+
+    def hash_of_files(self, folder: Path) -> str:
+        """Hash of the model's file, which is in ``folder``."""
+        return file_hash(folder / self.reduced_model)
 
 
 class FullMatrices(Settings):
@@ -169,6 +175,10 @@ class GivenMatrices(SettingsFile):
             given.camber,
         )
         return list(dict.fromkeys([*matrices, *rows, *(PurePath(file) for file in others if file)]))
+
+    def hash_of_files(self, folder: Path) -> str:
+        """Hash of the bytes of all files, which are in ``folder``."""
+        return fingerprint([file_hash(folder / file) for file in self.files])
 
     @property
     def speeds(self) -> list[float]:

@@ -17,9 +17,18 @@ from geometry.generate import VOLUME_TOLERANCE, generate, volume
 from geometry.import_mesh import import_mesh
 from geometry.interface import on_facets, places_of, require_patches, tip_of
 from geometry.mesh_file import read_mesh_file
-from geometry.project import MeshError, MeshWarning, WriteError, about, whole
+from geometry.project import MeshError, MeshWarning, WriteError, about, file_hash, whole
 from geometry.sections import loft_parameters, loft_table
-from geometry.shape import CELL, Shape, facets_of, jacobian_ratios, session
+from geometry.shape import (
+    CELL,
+    SOURCE,
+    Shape,
+    facets_of,
+    jacobian_ratios,
+    merge,
+    session,
+    source_of,
+)
 from geometry.table import describe_cut, read_sections
 from geometry.tetrahedra import edge_lengths, exterior
 from geometry.tip import DevelopedTip, cartesian
@@ -99,6 +108,7 @@ def build_mesh(
     geometry.project.errors.WriteError
         When the file cannot be written.
     """
+    made_of = file_hash(source) if source and Path(source).is_file() else ""
     with session(f"check {blade.file or 'the sections'}"):
         with about(blade.file):
             shape = _shape(blade, source)
@@ -114,7 +124,7 @@ def build_mesh(
         gmsh.model.addPhysicalGroup(2, shape.root, name="root")
         gmsh.model.addPhysicalGroup(2, shape.tip, name="tip")
         with whole(mesh_path) as temporary:
-            summary = _summary(_written(temporary, mesh_path), cad_volume, blade)
+            summary = _summary(_written(temporary, mesh_path, made_of), cad_volume, blade)
             print(summary.line())
             _check(summary, blade)
     return summary
@@ -131,7 +141,7 @@ def write_moved(mesh_path: Path, moved_path: str | Path, places: NDArray[np.floa
         When the file cannot be written.
     """
     with session("make the mesh anew"), whole(moved_path) as temporary:
-        gmsh.merge(str(mesh_path))
+        merge(mesh_path)
         nodes, *_ = gmsh.model.mesh.getNodes()
         for node, place in zip(np.sort(nodes), places, strict=True):
             gmsh.model.mesh.setNode(node, place, [])
@@ -139,13 +149,18 @@ def write_moved(mesh_path: Path, moved_path: str | Path, places: NDArray[np.floa
             raise MeshError(
                 "cells are inside out at rest: make the elements smaller", key="geometry_at_rpm"
             )
-        _written(temporary, moved_path)
+        _written(temporary, moved_path, source_of(mesh_path))
 
 
-def _written(file: Path, mesh_path: str | Path) -> FileMesh:
-    """Write the mesh to ``file``, and read it back: gmsh tells of no failure, as of a full disk."""
+def _written(file: Path, mesh_path: str | Path, made_of: str) -> FileMesh:
+    """Write the mesh to ``file``, and read it back: gmsh tells of no failure, as of a full disk.
+
+    ``made_of``: what ``source_of`` is to read.
+    """
     gmsh.option.setNumber("Mesh.MshFileVersion", 4.1)
     gmsh.write(str(file))
+    with file.open("ab") as mesh:
+        mesh.write(SOURCE % made_of.encode() if made_of else b"")
     nodes, *_ = gmsh.model.mesh.getNodes()
     cells, _ = gmsh.model.mesh.getElementsByType(CELL)
     with suppress(MeshError):  # cut short

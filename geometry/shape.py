@@ -3,15 +3,19 @@
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import gmsh
 import numpy as np
 from numpy.typing import NDArray
 
 from geometry.file_mesh import FileMaterial
-from geometry.project import MeshError
+from geometry.project import MeshError, ProvenanceError, anew, intact
 
 SAMPLES = 200  # points on each curve
+MESH = b"$MeshFormat\n"  # begins a mesh of gmsh
+SOURCE = b"$Comments\nsource %b\n$EndComments\n"  # in one, with a hash
 CELL, FACET = 11, 9  # gmsh's numbers of ten-node tetrahedra and six-node triangles
 
 
@@ -27,8 +31,11 @@ class Shape:
 
 @contextmanager
 def session(remedy: str) -> Iterator[None]:
-    """A gmsh session without output; errors of gmsh become ``MeshError`` with a ``remedy``."""
-    gmsh.initialize(interruptible=False)
+    """A gmsh session without output; errors of gmsh become ``MeshError`` with a ``remedy``.
+
+    ``.gmshrc`` and ``.gmsh-options`` are not read: they would change meshes, or call programs.
+    """
+    gmsh.initialize(readConfigFiles=False, interruptible=False)
     gmsh.option.setNumber("General.Terminal", 0)
     try:
         yield
@@ -38,6 +45,32 @@ def session(remedy: str) -> Iterator[None]:
         raise MeshError(f"gmsh: {error}; {remedy}") from None
     finally:
         gmsh.finalize()
+
+
+def merge(path: str | Path) -> None:
+    """Read a ``blade.msh`` into the session.
+
+    gmsh runs a text without the head of a mesh as a script of its own, which may call any program,
+    and likewise a ``blade.msh.opt`` beside the mesh: the head is checked, and gmsh is given a copy.
+
+    Raises
+    ------
+    ProvenanceError
+        When the file is no mesh, or not as it was written.
+    """
+    data = intact(path).read_bytes()
+    if not data.startswith(MESH):
+        raise ProvenanceError(f"is no mesh of gmsh; {anew(path)}", file=path)
+    with TemporaryDirectory() as folder:
+        copy = Path(folder, "blade.msh")
+        copy.write_bytes(data)
+        gmsh.merge(str(copy))
+
+
+def source_of(mesh_path: str | Path) -> str:
+    """Hash of the geometry file that a ``blade.msh`` was made of; empty of parameters."""
+    before, _, rest = Path(mesh_path).read_bytes().rpartition(SOURCE.partition(b"%b")[0])
+    return rest.partition(b"\n")[0].decode("ascii", "replace") if before else ""
 
 
 def wire(suction: NDArray, pressure: NDArray, add_curve: Callable[[list[int]], int]) -> int:

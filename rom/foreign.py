@@ -63,7 +63,7 @@ def read_foreign(path: str | Path, blade: str) -> Rom:
     """
     rom = _read(path, blade)
     if faults := check_foreign(rom).faults:
-        raise RomError("\n".join(f"{path}: {fault}" for fault in faults))
+        raise RomError(*faults, file=path)
     return rom
 
 
@@ -126,7 +126,7 @@ def _read(path: str | Path, blade: str) -> Rom:
     variables = _values(path)
     rom = _rom(variables, blade, file_hash(path))
     if faults := _shape_faults(rom, variables["power"]):
-        raise RomError("\n".join(f"{path}: {fault}; see {PAGE[:-1]}" for fault in faults))
+        raise RomError(*(f"{fault}; see {PAGE[:-1]}" for fault in faults), file=path)
     return rom if "f1" in variables else replace(rom, f1=_first_frequency(rom))
 
 

@@ -2,14 +2,17 @@
 
 import argparse
 import sys
+from contextlib import suppress
 from functools import partial
 from pathlib import Path
 
 from geometry.given import read_blade
 from geometry.project import (
+    SettingsError,
     WriteError,
     command,
     require_writable,
+    sealed,
     version,
     write_or_keep,
 )
@@ -17,7 +20,7 @@ from rom.foreign import load_model
 from rom.model import Rom
 from simulate.errors.accuracy import Choice, pilot
 from simulate.marching import SceneError
-from simulate.scene import Scene
+from simulate.scene import Scene, own_laws
 from simulate.scene.design import Design
 from simulate.sweeps.closing_in import sweep
 from simulate.sweeps.dataset import load, save
@@ -42,6 +45,13 @@ def main(arguments: list[str] | None = None) -> None:
     )
     parser.add_argument("--row", type=int, help="run one row of the scene's design as a sweep")
     parser.add_argument(
+        "--law",
+        action="append",
+        default=[],
+        metavar="FILE.py",
+        help="file with a law of your own that the scene names, outside of workflow/laws",
+    )
+    parser.add_argument(
         "--start",
         help="sweep to continue from, of the scene in `start`, run with `record: {end: true}`",
     )
@@ -60,6 +70,8 @@ def _run(options: argparse.Namespace) -> None:
     if output.suffix != ".nc":
         raise WriteError("cannot be written: its name must end in .nc", file=output)
     require_writable(output)
+    for file in options.law:
+        own_laws.take(file)
     scene = Scene.load(options.scene)
     rom = load_model(options.rom, scene.blade)
     _require_current(rom, Path(options.rom), scene, Path(options.scene))
@@ -86,18 +98,21 @@ def _write_tables(design: Design, rom: Rom, options: argparse.Namespace) -> None
 
 
 def _require_current(rom: Rom, path: Path, scene: Scene, scene_path: Path) -> None:
-    """Refuse a model made before its blade's file, or the mesh in its folder, was changed.
+    """Refuse a model made before its blade's files, or the mesh in its folder, were changed.
 
     Raises
     ------
     geometry.project.provenance.ProvenanceError
         If it was; the message names the difference.
     """
-    if rom.foreign:
+    if rom.foreign and not sealed(path):
         return
     blade = scene_path.resolve().parent.parent / "blades" / f"{scene.blade}.yaml"
     if rom.provenance.blade == scene.blade and blade.is_file():
-        rom.provenance.require_settings(read_blade(blade).settings_of_model(), path)
+        present = read_blade(blade)
+        rom.provenance.require_settings(present.settings_of_model(), path)
+        with suppress(SettingsError):  # of a file that is not here
+            rom.provenance.require_files(present.hash_of_files(blade.parent), path)
     rom.provenance.require_mesh(path.with_name("blade.msh"), path)
 
 

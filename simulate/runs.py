@@ -9,6 +9,7 @@ from typing import Self
 import xarray as xr
 
 from geometry.blade import RPM
+from geometry.project import printable
 from rom.model import Rom
 from simulate.errors.checked import checked
 from simulate.marching import Outcome, check_scene
@@ -42,7 +43,7 @@ class Runs:
         speeds, ends = RPM * self.speed.values, Counter(self.status.values.tolist())
         return "\n".join(
             [
-                f"Runs of blade {self.dataset.attrs['blade']}: {len(speeds)} speeds, "
+                f"Runs of blade {printable(self.dataset.attrs['blade'])}: {len(speeds)} speeds, "
                 f"{speeds.min():.0f} to {speeds.max():.0f} rpm",
                 ", ".join(f"{status}: {count}" for status, count in ends.items()),
                 dataset.checks(self.dataset),

@@ -5,7 +5,7 @@ from pathlib import Path
 from types import NoneType, UnionType
 from typing import Any, Union, get_args, get_origin
 
-from geometry.project import read_json
+from geometry.project import check_settings, read_json
 
 type Readers = Mapping[Any, Callable[[str | Path], Any]]  # by type
 
@@ -33,7 +33,7 @@ def argument(kind: Any, given: Any, readers: Readers | None = None) -> Any:
         (kind_of_each,) = get_args(kind) or (Any,)
         return [argument(kind_of_each, value, readers) for value in given]
     if isinstance(given, Mapping) and hasattr(kind, "model_validate"):
-        return kind.model_validate(given)
+        return check_settings(kind, dict(given), "")
     if str in kinds or not isinstance(given, str | Path):
         return given
     (reader,) = getattr(kind, "__metadata__", [getattr(kind, "load", read_json)])

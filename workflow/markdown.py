@@ -1,9 +1,13 @@
 """Numbers in text, with their uncertainty, and Markdown tables of them."""
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from math import floor, isfinite, isnan, log10
 from typing import NamedTuple
 
+from geometry.project import printable
+
+TAG = re.compile(r"<(?=[A-Za-z/!?])")
 LEAST = 1e-4  # smaller uncertainties and changes, relative, count as equal
 NOT_KNOWN = "(no ±)"  # without any uncertainty
 DIGITS = 3  # of a value without an uncertainty
@@ -12,9 +16,20 @@ WIDTH = 124  # of the lines of a page
 
 
 def table(head: Sequence[object], rows: Iterable[Iterable[object]]) -> str:
-    """Markdown table of a heading and rows of cells, without a final line break."""
+    """Markdown table of a heading and rows of cells, without a final line break.
+
+    What a cell says is text: no tags of HTML, and no further cells.
+
+    >>> print(table(["<i>", "<= 1 %"], []))
+    | &lt;i> | <= 1 % |
+    | --- | --- |
+    """
     lines = [head, ["---"] * len(head), *rows]
-    return "\n".join(f"| {' | '.join(map(str, cells))} |" for cells in lines)
+    return "\n".join(f"| {' | '.join(map(_as_text, cells))} |" for cells in lines)
+
+
+def _as_text(cell: object) -> str:
+    return TAG.sub("&lt;", printable(str(cell))).replace("|", r"\|")
 
 
 def cell(value: object, unknown: str = "-") -> str:

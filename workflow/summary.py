@@ -11,7 +11,7 @@ from textwrap import wrap
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from geometry.blade import RPM_PER_HZ
-from geometry.project import csv_text, read_json
+from geometry.project import csv_text, printable, read_json
 from geometry.tip import JUDGED
 from simulate.errors.beyond_linear import BEYOND
 from simulate.errors.neighbour import CHAOTIC, ONE_MOTION, TWO_MOTIONS
@@ -638,4 +638,4 @@ def last_words(folder: str | Path) -> str:
         *([f"To explore: {', '.join(pages)}."] if pages else []),
         f"Logs: {folder}/<blade>/logs/, {folder}/<blade>/<scene>/logs/.",
     ]
-    return "\n".join([terminal(summary), "", *where])
+    return "\n".join(map(printable, [*terminal(summary).split("\n"), "", *where]))

@@ -1,5 +1,6 @@
 """The office of the project: files, settings, provenance, errors, progress."""
 
+from geometry.project.contents import file_hash, hashes, unchanged
 from geometry.project.errors import (
     Caution,
     Fault,
@@ -10,6 +11,7 @@ from geometry.project.errors import (
     WriteError,
     about,
     command,
+    printable,
     shown,
 )
 from geometry.project.files import (
@@ -32,7 +34,6 @@ from geometry.project.provenance import (
     ProvenanceError,
     anew,
     code_hash,
-    file_hash,
     fingerprint,
     require_format,
     version,
@@ -45,7 +46,7 @@ from geometry.project.settings import (
     known,
     one_of,
 )
-from geometry.project.sources import sources_of
+from geometry.project.sources import imported_by, sources_of
 from geometry.project.strict_yaml import MOST_CHARACTERS, MOST_VALUES, parse
 from geometry.project.text_file import csv_rows, csv_text, number, numbers, read_text, require_file
 from geometry.project.yaml_file import A_NAME, MOST_BASES, NAME, merged, names, read_mapping

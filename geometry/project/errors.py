@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import wraps
 from typing import Any, NamedTuple, Self
+from unicodedata import category
 
 SHOWN = 80  # characters of a value in a message
 
@@ -23,7 +24,7 @@ class Fault(NamedTuple):
         """File, key, value, text and line, as far as there are any."""
         value = "" if self.value is None else shown(self.value)
         parts = [part for part in (self.file, self.key, value, self.text) if part]
-        return ": ".join(parts) + (f" (line {self.line})" if self.line else "")
+        return printable(": ".join(parts) + (f" (line {self.line})" if self.line else ""))
 
 
 class UserError(Exception):
@@ -112,6 +113,15 @@ def command(main: Callable[..., int | None]) -> Callable[..., int]:
             return 2
 
     return run
+
+
+def printable(text: str) -> str:
+    r"""A line for a terminal: names in files may hold what moves its cursor or hides other text.
+
+    >>> printable("tip\x1b[2K µm")
+    'tip\\x1b[2K µm'
+    """
+    return "".join(c if c.isprintable() or category(c) == "Zs" else repr(c)[1:-1] for c in text)
 
 
 def shown(value: object) -> str:

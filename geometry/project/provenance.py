@@ -15,10 +15,9 @@ from numbers import Integral
 from pathlib import Path
 from typing import Any, Self
 
+from geometry.project.contents import DIGITS, file_hash
 from geometry.project.errors import UserError
 from geometry.project.sources import ROOT, sources_of
-
-DIGITS = 16  # of a hash
 
 
 class ProvenanceError(UserError):
@@ -73,6 +72,20 @@ class Provenance:
                     f"{json.dumps(present[key])}; {anew(path)}",
                     file=path,
                 )
+
+    def require_files(self, present: str, path: str | Path) -> None:
+        """Refuse a file made of other files of the user than those whose hash is ``present``.
+
+        Raises
+        ------
+        ProvenanceError
+            If it was; the message says how to make ``path`` anew.
+        """
+        if present and self.settings.get("source", self.mesh) != present:
+            raise ProvenanceError(
+                f"made of other files than those that blade {self.blade} names; {anew(path)}",
+                file=path,
+            )
 
     def require_mesh(self, mesh: Path, path: str | Path) -> None:
         """Refuse a file made on another mesh than the file ``mesh``, if that exists.
@@ -136,11 +149,6 @@ def bytes_of(path: str | Path, remedy: str | None = None) -> bytes:
 def fingerprint(values: Any) -> str:
     """Hash of plain values, via JSON."""
     return hashlib.sha256(json.dumps(values, sort_keys=True).encode()).hexdigest()[:DIGITS]
-
-
-def file_hash(path: str | Path) -> str:
-    """Hash of a file's bytes."""
-    return hashlib.sha256(Path(path).read_bytes()).hexdigest()[:DIGITS]
 
 
 @cache

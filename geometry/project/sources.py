@@ -4,14 +4,23 @@ Nothing is imported. An import inside a function counts as any other. Modules lo
 ``grimp`` cannot see; ``LOADING_ALL`` and ``FACES`` list them.
 """
 
+import ast
+import site
+import sys
+from contextlib import suppress
 from functools import cache
 from importlib.util import find_spec
+from itertools import chain
 from pathlib import Path
+from sysconfig import get_path
 
 from grimp import ImportGraph, build_graph
 
+from geometry.project.contents import hashes
+
 ROOT = Path(__file__).parents[2]
 PACKAGES = ("geometry", "fem", "rom", "simulate", "workflow")
+INSTALLED = *map(get_path, ("stdlib", "purelib", "platlib")), site.getusersitepackages()
 LOADING_ALL = ("simulate.scene.laws",)  # packages that load all of their modules by name
 # Packages whose names are loaded when they are asked for, by the module that imports them all.
 FACES = {"simulate": "simulate.runs"}
@@ -37,6 +46,47 @@ def sources_of(*modules: str) -> tuple[str, ...]:
         raise ModuleNotFoundError(f"no module {unknown[0]} in {ROOT}", name=unknown[0])
     needed = {*modules}.union(*map(graph.find_upstream_modules, modules))
     return tuple(sorted(str(_file(module).relative_to(ROOT)) for module in needed))
+
+
+def imported_by(module: str) -> dict[str, str]:
+    """Hashes, by path, of a user's module and of all that it imports, in functions, too.
+
+    Of packages all modules count. What is installed is left out, and our own packages, whose code
+    has its own hash. Nothing is imported.
+    """
+    files, queue = list[Path](), [module]
+    for name in queue:
+        for file in _files_of(name):
+            imports = _imports(file) - {*queue, *PACKAGES}
+            queue += sorted(imports)
+            files.append(file)
+    return hashes(dict.fromkeys(files))
+
+
+def _files_of(name: str) -> list[Path]:
+    """Files of a module that is imported, or would be; none of those that are installed."""
+    module = sys.modules.get(name)
+    spec = module.__spec__ if module else find_spec(name)
+    file = getattr(module, "__file__", None) or (spec and spec.origin) or ""
+    folders = (spec and spec.submodule_search_locations) or []
+    files = [*chain(*(Path(folder).rglob("*.py") for folder in folders)), Path(file).absolute()]
+    return [
+        of
+        for of in dict.fromkeys(files)
+        if of.is_file() and not any(of.is_relative_to(folder) for folder in INSTALLED)
+    ]
+
+
+def _imports(file: Path) -> set[str]:
+    """Outermost names of what a file imports; none where it is no Python."""
+    names = set()
+    with suppress(SyntaxError, ValueError):
+        for node in ast.walk(ast.parse(file.read_bytes())):
+            if isinstance(node, ast.Import):
+                names |= {alias.name.partition(".")[0] for alias in node.names}
+            elif isinstance(node, ast.ImportFrom) and node.module and not node.level:
+                names.add(node.module.partition(".")[0])
+    return names
 
 
 def _file(module: str) -> Path:

@@ -15,8 +15,10 @@ private parts of numba; without them it compiles as numba does.
 
 import hashlib
 import inspect
+import os
 import pickle
 import re
+import stat
 import sys
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
@@ -60,11 +62,17 @@ def kernel(function: Dispatcher, types: tuple[Type, ...]) -> Callable:
     """Return ``function`` compiled for arguments of ``types``, read from its file or written to it.
 
     A process waits while another one compiles it. If the file cannot be read or written, also with
-    another version of numba, the function is compiled.
+    another version of numba, the function is compiled. The file is run as code: it must be one's
+    own, in a folder where nobody else writes.
     """
     try:
         path = FOLDER / f"{function.py_func.__name__}-{key(function, types)}.kernel"
     except UnknownError:
+        return _compiled(function, types)
+    with suppress(OSError):  # of a place where nothing can be written
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.parent.chmod(0o700)
+    if not _is_own(path.parent.resolve()):
         return _compiled(function, types)
     if (ready := _loaded(function, path)) is not None:
         return ready
@@ -78,7 +86,6 @@ def _alone(path: Path) -> Iterator[None]:
     lock = path.with_name(f".{path.name}.lock")
     with ExitStack() as held:
         with suppress(OSError):
-            path.parent.mkdir(parents=True, exist_ok=True)
             flock(held.enter_context(lock.open("w")), LOCK_EX)
             held.callback(lock.unlink, missing_ok=True)
         yield
@@ -155,9 +162,20 @@ def _of_function(function: FunctionType, seen: set[FunctionType]) -> Iterator[st
     yield _value_text(function.__defaults__, seen)
 
 
+def _is_own(path: Path) -> bool:
+    """Whether a file or folder is of this user, no link, and closed to the writing of others."""
+    try:
+        of = path.lstat()
+    except OSError:
+        return False
+    return of.st_uid == os.geteuid() and not (stat.S_ISLNK(of.st_mode) or of.st_mode & 0o022)
+
+
 def _loaded(function: Dispatcher, path: Path) -> Callable | None:
     """The kernel in the file; None without a file that can be read."""
     with suppress(Exception):  # of the file or of numba: the kernel is then compiled
+        if not _is_own(path):
+            return None
         dumped = pickle.loads(intact(path).read_bytes())
         function.targetctx.refresh()
         return CompileResult._rebuild(function.targetctx, *dumped).entry_point
@@ -169,6 +187,7 @@ def _written(function: Dispatcher, types: tuple[Type, ...], path: Path) -> Calla
     compiled = _compiled(function, types)
     with suppress(Exception):  # of the file or of numba: the next process compiles again
         write_whole(_dumped(function.overloads[types]), path)
+        path.chmod(0o600)
     return compiled
 
 

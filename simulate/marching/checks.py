@@ -16,6 +16,7 @@ from simulate.contact.strips import rods_in_footprint
 from simulate.marching.setup import SceneError, edge_slope, least_gap
 from simulate.scene import Casing, Contact, Gaps, Liner, Profile, Scene, Speeds
 from simulate.scene.laws import LAWS
+from simulate.scene.own_laws import Unread
 
 NEAR = 3.0  # times Omega_m: a speed above is taken to be in another unit
 ROUND_OFF = 1e-12  # relative, of a speed
@@ -151,7 +152,9 @@ def _remedy_of_speed(speeds: Speeds, rom: Rom, blade: str, highest: float) -> st
 def _liner(liner: Liner, radius: NDArray[np.float64], footprint: float) -> Iterator[Fault]:
     """A law from outside this project, and rods and footprint that do not go with the radius."""
     law, nu = liner.law, liner.nu
-    if not isinstance(law, LAWS) and (message := fault(law)):  # pyright: ignore[reportArgumentType]
+    if isinstance(law, Unread):
+        yield Fault(law.why, "liner.law")
+    elif not isinstance(law, LAWS) and (message := fault(law)):  # pyright: ignore[reportArgumentType]
         yield Fault(
             f"{type(law).__name__}: {message}; see simulate/README.md, From Python", "liner.law"
         )

@@ -7,6 +7,7 @@ line below the header. Instead of a CSV file the scene may name a YAML file with
 (``scene.sobol``), which draws the rows.
 """
 
+import os
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
@@ -31,6 +32,7 @@ from simulate.scene.scene import Scene
 from simulate.scene.sobol import Sobol
 
 COLUMN = re.compile(r"[a-zA-Z]\w*(\[\d{1,6}\])*(\.\w+(\[\d{1,6}\])*)*", re.ASCII)
+WORD = re.compile(r"[^\W\d_]{2}")  # which no number has
 SHOWN, LINES = 3, 30  # row numbers of a fault that a message lists, and its lines
 REFUSED = {  # columns that no row may have, by their first key
     "blade": "a design has one reduced model: make a scene with this design for each blade",
@@ -58,6 +60,7 @@ class Design:
     columns: list[str]
     scenes: list[Scene]  # of the rows
     sobol: Sobol | None = None  # where it has drawn the rows
+    files: tuple[str, ...] = ()  # paths of the table, and of those that its cells name
 
     @classmethod
     def load(cls, scene_path: str | Path) -> Self:
@@ -92,7 +95,10 @@ class Design:
             except SettingsError as error:
                 faults += [(row, fault) for fault in error.faults]
         refuse(path, faults)
-        return cls(path, base, columns, scenes, sobol)
+        words = {cell for line in lines for cell in line if WORD.search(str(cell))}
+        named = {text for cell in words for text in _texts(_cell(cell))}
+        files = str(path), *sorted(filter(os.path.isfile, named))
+        return cls(path, base, columns, scenes, sobol, files)
 
     def require_row(self, row: int) -> Scene:
         """The scene of a row, from 1.
@@ -240,6 +246,14 @@ def _cell(text: Any) -> Any:
         with suppress(ValueError):  # it stays a text
             value = number(value)
     return value
+
+
+def _texts(value: Any) -> list[str]:
+    """All texts in a value of a cell, some of which may be names of files."""
+    if isinstance(value, str):
+        return [value]
+    parts = value.values() if isinstance(value, dict) else value if isinstance(value, list) else []
+    return [text for part in parts for text in _texts(part)]
 
 
 def _place(changes: Any, base: Any, path: Keys, value: Any) -> None:

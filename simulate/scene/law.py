@@ -8,7 +8,7 @@ from typing import Annotated, Any, ClassVar, NamedTuple
 import numpy as np
 from pydantic import Field
 
-from geometry.project import Settings
+from geometry.project import Settings, fingerprint, imported_by
 
 STRAINS = np.geomspace(1e-12, 1.0, 257)  # at which the slope of a law is sampled
 PROBE = 1e-3  # strain at which a liner with any strength bears
@@ -37,7 +37,7 @@ class Law(Settings):
     Both are plain functions without ``self``, which are compiled; ``parameters`` is a named
     tuple of the fields. By default a rod carries no load and does not wear. Laws of this project
     have a literal field ``kind``, their name in scene files; any other law is named
-    ``module:class`` there.
+    ``module:class`` there (``simulate.scene.own_laws``).
 
     >>> class PerfectlyPlastic(Law):
     ...     E: float  # Pa
@@ -64,6 +64,8 @@ class Law(Settings):
 
     touches: ClassVar[bool] = True  # whether there is contact at all
     deforms: ClassVar[bool] = True  # False: the rod is rigid
+    code_files: ClassVar[dict[str, str]] = {}  # of a law of one's own: hashes of its code, by path
+    code_hash: ClassVar[str | None] = None  # of all of them; without a file of what is compiled
 
     @staticmethod
     def stress(law, eps, eps_p):
@@ -77,10 +79,15 @@ class Law(Settings):
 
     @classmethod
     def __pydantic_init_subclass__(cls, **_: Any) -> None:
-        """Make static methods of the functions, which have no ``self``."""
+        """Make static methods of the functions, which have no ``self``, and note its code."""
         for name in ("stress", "plastic_work"):
             if isinstance(function := vars(cls).get(name), FunctionType):
                 setattr(cls, name, staticmethod(function))
+        if not cls.__module__.startswith("simulate."):
+            cls.code_files = imported_by(cls.__module__)
+            codes = (of.__code__ for of in (cls.stress, cls.plastic_work))
+            compiled = [repr((of.co_code, of.co_consts, of.co_names)) for of in codes]
+            cls.code_hash = fingerprint([*cls.code_files.values()] or compiled)
 
     @property
     def called(self) -> str:

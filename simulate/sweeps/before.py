@@ -8,8 +8,9 @@ import xarray as xr
 from geometry.project import Fault
 from rom.model import Rom
 from simulate.marching import WITH_RESULT, FinalState, SceneError, Worn
+from simulate.scene.own_laws import Unread
 from simulate.scene.scene import Scene, Start
-from simulate.sweeps.dataset import final_state_of, require_rom
+from simulate.sweeps.dataset import final_state_of, require_rom, scene_of
 
 SAME_SPEED = 1e-9  # relative
 # Keys in which a run that goes on may differ from the one before
@@ -51,7 +52,10 @@ def before(scene: Scene, rom: Rom, runs: xr.Dataset | None) -> Before:
             key="start.scene",
             value=start.scene,
         )
-    if faults := _differences(scene, start, Scene.model_validate_json(runs.attrs["scene"])):
+    ran = scene_of(runs)
+    if isinstance(ran.liner.law, Unread) and not start.liner_only:
+        raise SceneError(ran.liner.law.why, key="start.scene", value=start.scene)
+    if faults := _differences(scene, start, ran):
         raise SceneError(*faults)
 
     def at(Omega: float) -> FinalState | Worn:

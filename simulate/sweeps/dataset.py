@@ -44,6 +44,7 @@ from simulate.marching.states import every
 from simulate.marching.trend import further
 from simulate.scene import GROWING, LEADING, OF_LAST_ROUNDS, Scene
 from simulate.scene.laws.table import Tabulated
+from simulate.scene.own_laws import of_result
 from simulate.sweeps.plain import Course
 
 type Entry = tuple[str | tuple[str, ...], Any, dict[str, Any]]
@@ -365,7 +366,7 @@ def checks(dataset: xr.Dataset) -> str:
 
 
 def scene_of(dataset: xr.Dataset) -> Scene:
-    """The scene that a sweep was run from.
+    """The scene that a sweep was run from; its law is ``Unread`` where its code is not here.
 
     Raises
     ------
@@ -373,10 +374,13 @@ def scene_of(dataset: xr.Dataset) -> Scene:
         When this version knows no such scene.
     """
     try:
-        return check_settings(Scene, json.loads(dataset.attrs["scene"]), "sweep.nc")
-    except SettingsError as error:
+        values = json.loads(dataset.attrs["scene"])
+        values["liner"]["law"] = of_result(values["liner"]["law"])
+        return check_settings(Scene, values, "sweep.nc")
+    except (KeyError, TypeError, SettingsError) as error:
+        key = getattr(error, "key", "liner")
         raise ProvenanceError(
-            f"its scene is none that this version knows ({error.key}); run the scene again",
+            f"its scene is none that this version knows ({key}); run the scene again",
             file="sweep.nc",
         ) from None
 

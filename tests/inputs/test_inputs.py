@@ -31,7 +31,7 @@ TWO = "a.yaml: x\na.yaml: y"
         (1, "either", "is 1", "silent"),
         (1, "accept", "", "right"),
         (UserError("a.yaml: x"), "accept", "", "refused wrongly"),
-        (UserError(TWO.replace("\n", "\n\n")), "either", "", "unclear"),
+        (UserError("a.yaml: x", "", "a.yaml: y"), "either", "", "unclear"),
         (UserError("no file: x"), "either", "", "unclear"),
         (UserError(TWO), "either", "", "refused"),
     ],

@@ -117,8 +117,20 @@ def without_provenance(path):
     older.to_netcdf(path, engine="h5netcdf")
 
 
+def with_a_file(folder, rom):
+    """The blade's file names one with its mesh, of which the model is not."""
+    path = folder / "blades/coarse.yaml"
+    values = yaml.safe_load(path.read_text())
+    del values["sections"], values["mesh"]
+    faces = {"root": {"group": "ROOT"}, "tip": {"group": "TIP"}}
+    values["mesh_file"] = {"file": "other.cdb", "unit": "mm", **faces}
+    path.write_text(yaml.safe_dump(values))
+    (folder / "blades/other.cdb").write_text("another mesh")
+
+
 OTHERS = {  # change of the project's folder, and what is named
     '"patches": 7': lambda at, rom: changed(at / "blades/coarse.yaml", b"hes: 8", b"hes: 7"),
+    "files that blade coarse names are others": with_a_file,
     "another mesh": lambda at, rom: changed(at / "results/blade.msh", b"$EndElem", b"\n$EndElem"),
     "another version of the code": lambda at, rom: replace(
         rom, provenance=replace(rom.provenance, code="older")

@@ -127,7 +127,7 @@ def test_a_sweep_is_read_back_with_its_law_and_casing(coarse_rom, tmp_path):
 @pytest.mark.parametrize(
     ("law", "remedy"),
     [
-        ({"kind": "my_laws:Cubic", "E": 1.0}, r"class Cubic into a file my_laws\.py"),
+        ({"kind": "my_laws:Cubic", "E": 1.0}, r"class Cubic into workflow/laws/my_laws\.py of"),
         ({"kind": "__main__:Cubic", "E": 1.0}, "class Cubic into a file of its own"),
         (Linear, r"Linear\(E=\.\.\.\)"),  # a class in place of a law
     ],

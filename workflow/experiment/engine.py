@@ -42,8 +42,6 @@ from workflow.experiment.row import ExperimentRow
 
 TURNS, LONG = 3, 1.0  # most times a run is computed, and CPU time, s, after which no more
 
-_hash = cache(file_hash)  # matrices of a blade serve many rows
-
 
 @dataclass(frozen=True)
 class Marched:
@@ -106,7 +104,7 @@ class Marched:
                 self.rom and self.rom.provenance.hash,
                 functions,
                 code_hash(__name__, *(function.partition(":")[0] for function in functions)),
-                {name: _hash(file) for name, file in self.files.items()},
+                {name: file_hash(file) for name, file in self.files.items()},
                 self.reference and self.reference.key,
             ]
         )

@@ -278,8 +278,11 @@ function drawSignal(codes) {
   });
 }
 
+// Names in results, of energies and others, are text, with whatever is in them.
+const text = (value) => String(value).replace(/[&<>]/g, (sign) => `&#${sign.charCodeAt(0)};`);
+
 function showNumbers() {
-  const row = (name, values) => `<tr><th>${name}</th>${values.map((value) => `<td>${value}</td>`).join("")}</tr>`;
+  const row = (name, values) => `<tr><th>${text(name)}</th>${values.map((value) => `<td>${text(value)}</td>`).join("")}</tr>`;
   const joule = (value) => (typeof value === "number" ? value.toExponential(2) : value || "none");
   const percent = (value) => (typeof value === "number" ? `${(100 * value).toPrecision(2)} %` : value || "not known");
   byId("numbers").innerHTML = facts.tables.map(({ says, of }) => {
@@ -293,13 +296,13 @@ function showAnswers(codes) {
   const told = facts.answers;
   if (!told) return;
   byId("answers").hidden = false;
-  const cells = (kind, values) => values.map((value) => `<${kind}>${value}</${kind}>`).join("");
+  const cells = (kind, values) => values.map((value) => `<${kind}>${text(value)}</${kind}>`).join("");
   byId("of_scene").textContent = told.about;
   const table = ({ heads, rows }) => `<thead><tr>${cells("th", heads)}</tr></thead><tbody>` +
     rows.map((row) => `<tr>${cells("td", row)}</tr>`).join("") + "</tbody>";
   ["peaks", "loads", "margins"].forEach((name, i) => { byId(name).innerHTML = table(told.tables[i]); });
   byId("margins").parentElement.hidden = !told.tables[2].rows.length;
-  byId("notes").innerHTML = told.notes.map((note) => `<li>${note}</li>`).join("");
+  byId("notes").innerHTML = told.notes.map((note) => `<li>${text(note)}</li>`).join("");
   byId("explained").textContent = told.meaning;
   ["peaks", "loads"].forEach((name) => byId(name).querySelectorAll("tbody tr").forEach((row, i) =>
     row.addEventListener("click", () => choose(codes, nearest(told.speeds[i])))));

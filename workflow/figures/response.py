@@ -154,16 +154,23 @@ class Response:
         return liner_and_tip(self.scene)
 
 
+def _symbol(name: str) -> str:
+    """Symbol of a parameter in a label; a name of one's own is text, whatever is in it."""
+    if name in SYMBOLS or (len(name) == 1 and name.isalpha()):
+        return f"${SYMBOLS.get(name, name)}$"
+    return name.replace("$", r"\$")
+
+
 def liner_and_tip(scene: Scene) -> str:
     """The liner's law with its parameters, moduli in Pa, and the tip, for labels."""
     law, contact = scene.liner.law, scene.contact
     unit = getattr(law, "unit_Pa", None)
     listed = [
-        f"${SYMBOLS.get(name, name)}$ = {PASCAL(rounded(unit * x, 3)) if unit else f'{x:g}'}"
+        f"{_symbol(name)} = {PASCAL(rounded(unit * x, 3)) if unit else f'{x:g}'}"
         for name, x in law.model_dump(exclude={"kind", "unit_Pa"}).items()
-        if not isinstance(x, dict)  # a curve
+        if isinstance(x, int | float)  # no curve, nor what a law of one's own may have
     ]
-    label = ", ".join([law.kind, *listed]) if listed else f"liner: {law.kind}"
+    label = ", ".join([law.called, *listed]) if listed else f"liner: {law.called}"
     if contact.profile is None:
         return label
     force = "with" if contact.tangential else "without"

@@ -9,7 +9,7 @@ from snakemake.exceptions import WorkflowError
 
 from geometry.blade import SOURCES
 from geometry.given import GIVEN, GivenMatrices, GivenModel, read_blade
-from geometry.project import SettingsError, fingerprint, sources_of, yaml_file
+from geometry.project import SettingsError, fingerprint, hashes, printable, sources_of, yaml_file
 from rom.speeds import basis_speeds, check_speeds
 from simulate.scene.design import Design, refuse
 from simulate.scene import Scene, fault_of_blade
@@ -20,7 +20,7 @@ from workflow.summary import last_words
 ROOT = Path(workflow.basedir)
 SUMMARY = "results/summary.json"
 SHOWN_MODE = 3  # the highest natural mode whose motion pages show
-DESIGN_ROWS = {}  # number of rows of the designs read, by scene
+DESIGNS = {}  # number of rows, paths of tables, and hashes of laws, of the designs read, by scene
 
 
 def without_sources(record):
@@ -64,6 +64,12 @@ def files_of(blade):
     return {f"{blade.source_key}.file": [Path("workflow/blades", blade.file)]} if blade.file else {}
 
 
+def require_shown(path, key, named):
+    """Refuse a file that Snakemake cannot name in a line: it shows names as they are."""
+    if printable(named) != named:
+        raise WorkflowError(f"{path}: {key}: {named!r}: rename it, without control characters")
+
+
 @cache
 def blade_settings(name):
     """Settings of a blade, used by a scene or not."""
@@ -71,8 +77,9 @@ def blade_settings(name):
     blade = read_or_fail(read_blade, path)
     for key, files in files_of(blade).items():
         for file in files:
+            named = str(file).removeprefix("workflow/blades/")
+            require_shown(path, key, named)
             if not os.path.isfile(file):
-                named = str(file.relative_to("workflow/blades"))
                 raise WorkflowError(f"{path}: {key}: {named!r}: no such file")
     return blade
 
@@ -122,8 +129,10 @@ def scene_settings(name):
             f"workflow/config.yaml: explore: {name!r} is a design: allowed are sweeps"
         )
     if scene.design:
+        require_shown(scene_file(name), "design", scene.design)
         design = read_or_fail(Design.of, scene, Path(scene_file(name)))
-        DESIGN_ROWS[name] = len(design.scenes)
+        laws = (of.liner.law.code_files.items() for of in design.scenes)
+        DESIGNS[name] = len(design.scenes), design.files, dict(chain(*laws))
         require_blade(name, *design.scenes, table=design.path)
     return scene
 
@@ -213,14 +222,16 @@ wildcard_constraints:
     directions="r|rt|rtz",
 
 
-def own_files(names):
-    """Files of the project, as inputs of jobs that read or import them.
+def here(files):
+    """Paths, relative in the working directory: a project that is moved does not rerun."""
+    folder = Path.cwd()
+    paths = map(Path, files)
+    return [str(f.relative_to(folder) if f.is_relative_to(folder) else f) for f in paths]
 
-    Paths are relative in the working directory, so that a project that is moved does not rerun.
-    """
-    here = Path.cwd()
-    files = [ROOT / name for name in names]
-    return [str(f.relative_to(here) if f.is_relative_to(here) else f) for f in files]
+
+def own_files(names):
+    """Files of the project, as inputs of jobs that read or import them."""
+    return here(ROOT / name for name in names)
 
 
 def code_of(*jobs):
@@ -282,10 +293,28 @@ def basis_uses(wildcards):
     return Told({key: value for key, value in settings.items() if key != "tolerance_percent"})
 
 
+def files_of_blade(wildcards):
+    """Paths of the files that the blade's file names."""
+    return list(map(str, chain(*files_of(blade_settings(wildcards.blade)).values())))
+
+
 def blade_source(wildcards):
     """The input file with the blade's geometry, if the blade names one."""
-    files = [file for of in files_of(blade_settings(wildcards.blade)).values() for file in of]
-    return {"source": list(map(str, files)) if len(files) > 1 else str(files[0])} if files else {}
+    files = files_of_blade(wildcards)
+    return {"source": files if len(files) > 1 else files[0]} if files else {}
+
+
+def contents_of_blade(wildcards):
+    """Hashes of the files that the blade's file names, for the jobs that read them."""
+    return Told(read_or_fail(hashes, files_of_blade(wildcards)))
+
+
+def contents_of_scene(wildcards):
+    """Hashes of the files that runs of the scene read: of its design, and of laws of one's own."""
+    scene = SCENES[wildcards.scene]
+    of_design = DESIGNS[wildcards.scene][1:] if scene.design else ((), scene.liner.law.code_files)
+    tables, laws = of_design
+    return Told(read_or_fail(hashes, tables) | dict(zip(here(laws), laws.values())))
 
 
 def blade_file(wildcards):
@@ -297,7 +326,7 @@ def blocks(wildcards):
     scene = SCENES[wildcards.scene]
     if scene.speeds.in_turn:
         return range(1)
-    most = DESIGN_ROWS[wildcards.scene] if scene.design else scene.speeds.count
+    most = DESIGNS[wildcards.scene][0] if scene.design else scene.speeds.count
     return range(min(CONFIG.blocks, most))
 
 

@@ -17,6 +17,7 @@ rule experiment_block:
         "results/experiments/{experiment}/benchmarks/block-{block}.tsv"
     params:
         run="workflow.experiment.engine:march_block",
+        contents=contents_of_experiment,
         given=plan_of_experiment,
         block="{block}",
         folder="results/experiments/{experiment}/rows",

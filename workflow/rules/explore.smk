@@ -52,6 +52,7 @@ rule rub:
         format="gif|mp4|png",
     params:
         run="workflow.jobs.rub:animate",
+        contents=contents_of_scene,
         scene=settings_told,
     message:
         "Animation of scene {wildcards.scene} at {wildcards.speed} f1(0)"

@@ -9,6 +9,7 @@ use rule build_mesh as build_mesh_at_rest with:
         blade=one_of(AS_IT_RUNS),
     params:
         run="workflow.jobs.mesh_at_rest:build",
+        contents=contents_of_blade,
         blade=blade_file,
         uses=blade_uses(*GEOMETRY_USES, "geometry_at_rpm", "material"),
     message:
@@ -50,6 +51,7 @@ rule read_matrices:
         blade=one_of(WITH_MATRICES),
     params:
         run="workflow.jobs.given_matrices:read",
+        contents=contents_of_blade,
         blade=blade_file,
         uses=lambda wildcards: blade_settings(wildcards.blade).settings_of_matrices(),
     message:

@@ -72,6 +72,14 @@ def code_of_experiment(wildcards):
     return code_of("workflow.experiment.engine", *sorted(functions))(wildcards)
 
 
+def contents_of_experiment(wildcards):
+    """Hashes of the files of the laws of one's own in its rows."""
+    laws = dict(
+        chain(*(case.scene.liner.law.code_files.items() for case in cases_of(wildcards.experiment)))
+    )
+    return Told(zip(here(laws), laws.values()))
+
+
 def plan_of_experiment(wildcards):
     """All rows, and the number of blocks."""
     found = cases_of(wildcards.experiment)

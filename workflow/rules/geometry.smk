@@ -15,6 +15,7 @@ rule build_mesh:
         blade=one_of([name for name in MESHED if name not in AS_IT_RUNS]),
     params:
         run="workflow.jobs.mesh:build",
+        contents=contents_of_blade,
         blade=blade_file,
         uses=blade_uses(*GEOMETRY_USES),
     message:

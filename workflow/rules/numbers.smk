@@ -50,6 +50,7 @@ for name, row in NUMBERS.items():
         params:
             run=function,
             given=filled(row.get("given", {})),
+            contents=filled(row.get("contents", {})),
             blade=blade_file if "{blade}" in output else "",
             uses=filled(row.get("uses", "")),
         message:

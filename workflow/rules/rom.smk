@@ -75,6 +75,7 @@ rule take_rom:
         blade=one_of(FOREIGN),
     params:
         run="workflow.jobs.given_rom:take",
+        contents=contents_of_blade,
         blade=blade_file,
     message:
         "Reduced model of blade {wildcards.blade}, from elsewhere"

@@ -12,6 +12,7 @@ rule pilot:
         "results/{blade}/{scene}/benchmarks/pilot.tsv"
     params:
         run="workflow.jobs.march:pilot",
+        contents=contents_of_scene,
         scene=lambda wildcards: Told(
             SCENES[wildcards.scene].but(design=None).model_dump(mode="json")
         ),
@@ -55,6 +56,7 @@ rule sweep_block:
         "results/{blade}/{scene}/benchmarks/block-{block}.tsv"
     params:
         run="workflow.jobs.march:block",
+        contents=contents_of_scene,
         scene=settings_told,
         blocks=lambda wildcards: len(blocks(wildcards)),
     message:
@@ -80,6 +82,7 @@ rule sweep:
         "results/{blade}/{scene}/benchmarks/sweep.tsv"
     params:
         run="workflow.jobs.sweep:of_blocks",
+        contents=contents_of_scene,
         scene=settings_told,
         sought=lambda wildcards: sought_of(wildcards.blade),
     message:
@@ -105,6 +108,7 @@ rule design_block:
         "results/{blade}/{scene}/benchmarks/design-block-{block}.tsv"
     params:
         run="workflow.jobs.design:block",
+        contents=contents_of_scene,
         scene=settings_told,
         file=lambda wildcards: scene_file(wildcards.scene),
         parts="results/{blade}/{scene}/design-parts",
@@ -133,6 +137,7 @@ rule design:
         "results/{blade}/{scene}/benchmarks/design.tsv"
     params:
         run="workflow.jobs.design:tables",
+        contents=contents_of_scene,
         scene=settings_told,
         file=lambda wildcards: scene_file(wildcards.scene),
     message:
@@ -156,6 +161,7 @@ rule design_row:
         "results/{blade}/{scene}/benchmarks/row-{row}.tsv"
     params:
         run="workflow.jobs.design:row",
+        contents=contents_of_scene,
         scene=settings_told,
         file=lambda wildcards: scene_file(wildcards.scene),
     message:

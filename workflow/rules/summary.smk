@@ -16,6 +16,7 @@ rule answers:
         "results/{blade}/{scene}/benchmarks/answers.tsv"
     params:
         run="workflow.jobs.answers:find",
+        contents=contents_of_scene,
     message:
         "Peaks of scene {wildcards.scene}: force, torque, wear, and their uncertainty"
     script:

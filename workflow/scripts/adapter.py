@@ -20,7 +20,9 @@ from geometry.project import (
     Caution,
     UserError,
     bar,
+    printable,
     require_writable,
+    unchanged,
     write_json,
     write_whole,
 )
@@ -108,12 +110,12 @@ class Teller:
 
     def _write(self, line: str) -> None:
         self.clear()
-        os.write(self.outside, f"{self.name}: {line}\n".encode())
+        os.write(self.outside, f"{self.name}: {printable(line)}\n".encode())
 
     def _draw(self, shown: str) -> None:
         """Replace the bar; the next text overwrites it."""
         width = os.get_terminal_size(self.outside).columns or len(shown) + 1  # 0: not known
-        self.bar = shown[: width - 1]
+        self.bar = printable(shown)[: width - 1]
         os.write(self.outside, f"{CLEARED}{self.bar}\r".encode())
 
 
@@ -121,7 +123,8 @@ class Teller:
 def stage(snakemake: Any) -> Iterator[Teller]:
     """Redirect stdout and stderr, also of compiled code, to the log; give the ``Teller``.
 
-    The places of the outputs are tried first, and a job that succeeds ends its log with
+    The places of the outputs are tried first. Files of users (``params.contents``) are before and
+    after as they were when the job was planned, or it fails. A job that succeeds ends its log with
     its CPU time and memory. Errors for users are also written to the terminal, as their message
     with the YAML file that it is about; all others have their traceback in the log.
     Of a job that is killed, or in which a library crashes, a process beside it says so.
@@ -137,7 +140,8 @@ def stage(snakemake: Any) -> Iterator[Teller]:
     try:
         for path in snakemake.output:
             require_writable(path)
-        yield tell
+        with unchanged(snakemake.params.get("contents", {})):
+            yield tell
         print(usage(begun))
     except Exception as error:
         tell.clear()
@@ -170,9 +174,10 @@ def name_of(snakemake: Any) -> str:
 
 def _line(snakemake: Any, message: object) -> str:
     """The message with its rule, and the YAML file of blade or scene unless it names the file."""
+    message = "\n".join(map(printable, str(message).split("\n")))
     scene = snakemake.wildcards.get("scene")
     about = snakemake.params.get("blade") or (f"workflow/scenes/{scene}.yaml" if scene else "")
-    named = not about or str(message).startswith(about)
+    named = not about or message.startswith(about)
     return f"{snakemake.rule}: {message}" if named else f"{snakemake.rule}: {about}: {message}"
 
 

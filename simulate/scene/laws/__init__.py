@@ -1,6 +1,6 @@
 """Liner laws, one per file: a new file here adds a law, under the name in its ``kind``.
 
-A law defined elsewhere is named ``module:class``.
+A law of one's own is named ``module:class`` (``simulate.scene.own_laws``).
 """
 
 from collections.abc import Callable
@@ -11,6 +11,7 @@ from typing import Annotated, Any, Union
 from pydantic import GetPydanticSchema, WrapSerializer, WrapValidator
 
 from geometry.project import one_of
+from simulate.scene import own_laws
 from simulate.scene.law import Law
 
 _modules = [import_module(f"{__name__}.{module.name}") for module in iter_modules(__path__)]
@@ -32,23 +33,16 @@ def _from_elsewhere(value: Any, of_ours: Callable[[Any], Law]) -> Law:
         raise ValueError(f"a class: give a law with its numbers, {value.__name__}({numbers})")
     if not (isinstance(value, dict) and isinstance(kind := value.get("kind"), str) and ":" in kind):
         return of_ours(value)
-    module, _, name = kind.partition(":")
-    try:
-        law = getattr(import_module(module), name)
-    except (ImportError, AttributeError) as error:
-        file = "of its own" if module == "__main__" else f"{module}.py"
-        raise ValueError(
-            f"kind: {kind!r}: {error}: put the class {name} into a file {file} that Python finds "
-            f"(in the folder it starts in, or on PYTHONPATH), and import it from there"
-        ) from None
-    return law.model_validate({key: number for key, number in value.items() if key != "kind"})
+    law = own_laws.named(kind, value.get("hash"))
+    return law.model_validate({key: of for key, of in value.items() if key not in ("kind", "hash")})
 
 
 def _with_kind(law: Law, plain: Callable[[Law], Any]) -> Any:
-    """Parameters and ``kind`` of a law, as plain values."""
+    """Parameters and ``kind`` of a law, as plain values; of one's own with the hash of its code."""
     if isinstance(law, LAWS):
         return plain(law)
-    return {"kind": law.called, **law.model_dump()}
+    of_code = {"hash": law.code_hash} if law.code_hash else {}
+    return {"kind": law.called, **of_code, **law.model_dump()}
 
 
 AnyLaw = Annotated[
