@@ -66,15 +66,13 @@ def imported_by(module: str) -> dict[str, str]:
 def _files_of(name: str) -> list[Path]:
     """Files of a module that is imported, or would be; none of those that are installed."""
     module = sys.modules.get(name)
-    spec = module.__spec__ if module else find_spec(name)
-    file = getattr(module, "__file__", None) or (spec and spec.origin) or ""
-    folders = (spec and spec.submodule_search_locations) or []
-    files = [*chain(*(Path(folder).rglob("*.py") for folder in folders)), Path(file).absolute()]
-    return [
-        of
-        for of in dict.fromkeys(files)
-        if of.is_file() and not any(of.is_relative_to(folder) for folder in INSTALLED)
-    ]
+    spec = getattr(module, "__spec__", None) if module else find_spec(name)
+    file = getattr(module, "__file__", None) or (spec and spec.origin)
+    folders = (spec and spec.submodule_search_locations) or ()
+    places = [Path(of).absolute() for of in (file, *folders) if of]
+    mine = [of for of in places if not any(of.is_relative_to(folder) for folder in INSTALLED)]
+    files = chain(*(sorted(of.rglob("*.py")) if of.is_dir() else [of] for of in mine))
+    return [of for of in files if of.is_file()]
 
 
 def _imports(file: Path) -> set[str]:
