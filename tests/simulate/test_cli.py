@@ -130,7 +130,7 @@ def with_a_file(folder, rom):
 
 OTHERS = {  # change of the project's folder, and what is named
     '"patches": 7': lambda at, rom: changed(at / "blades/coarse.yaml", b"hes: 8", b"hes: 7"),
-    "files that blade coarse names are others": with_a_file,
+    "made of other files than those that blade coarse names": with_a_file,
     "another mesh": lambda at, rom: changed(at / "results/blade.msh", b"$EndElem", b"\n$EndElem"),
     "another version of the code": lambda at, rom: replace(
         rom, provenance=replace(rom.provenance, code="older")

@@ -276,5 +276,7 @@ def test_what_is_made_of_a_file_holds_its_hash(tmp_path):
     assert source_of(mesh) == source_of(moved) == made.settings["source"]
     assert made.settings["source"] == file_hash(folder / "ansys.cdb") == blade.hash_of_files(folder)
     made.require_files(blade.hash_of_files(folder), "rom.nc")
-    with pytest.raises(ProvenanceError, match=r"names are others since; make it anew"):
+    with pytest.raises(
+        ProvenanceError, match=r"other files than those that blade ansys names; make it"
+    ):
         made.require_files("another", "rom.nc")
