@@ -18,6 +18,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from matplotlib.mathtext import MathTextParser
+from own_law import LAW
 
 from fem.solid import read_solid
 from geometry.blade import Blade
@@ -55,25 +56,6 @@ liner:
 record: {samples_per_round: 64, spectrum_rounds: 1, end: true, wear: true}
 """
 MINE = ("foam", "helper", "evil", "between", "parts", "space", "wave")  # modules of the tests
-LAW = """
-from simulate import Law
-
-
-class Foam(Law):
-    E: float
-    sigma_Y: float
-
-    def stress(law, eps, eps_p):
-        sigma = law.E * (eps - eps_p)
-        if sigma <= 0.0:
-            return 0.0, eps_p, 0.0
-        if sigma < 1.0 * law.sigma_Y:
-            return sigma, eps_p, law.E
-        return 1.0 * law.sigma_Y, eps - 1.0 * law.sigma_Y / law.E, 0.0
-
-    def plastic_work(law, before, after):
-        return 1.0 * law.sigma_Y * (after - before)
-"""
 
 
 @pytest.fixture

@@ -8,6 +8,7 @@ from contextlib import nullcontext
 from pathlib import Path
 
 import meshio
+import own_law
 import pytest
 import yaml
 from projects import ROOT, Project, make_project
@@ -25,27 +26,7 @@ from geometry.project import (
 )
 from geometry.shape import source_of
 
-LAW = """
-from math import sqrt
-from helper import PORES
-from simulate import Law
-
-
-class Foam(Law):
-    E: float
-    sigma_Y: float
-
-    def stress(law, eps, eps_p):
-        sigma = law.E * (eps - eps_p)
-        if sigma <= 0.0:
-            return 0.0, eps_p, 0.0
-        if sigma < PORES * law.sigma_Y:
-            return sigma, eps_p, law.E
-        return PORES * law.sigma_Y, eps - PORES * law.sigma_Y / law.E, 0.0
-
-    def plastic_work(law, before, after):
-        return PORES * law.sigma_Y * (after - before)
-"""
+LAW = "from math import sqrt\nfrom helper import PORES\n" + own_law.LAW.replace("1.0 *", "PORES *")
 OF_MESH = {"unit": "mm", "root": {"group": "ROOT"}, "tip": {"group": "TIP"}}
 MATRICES = {"M": "M.mtx", "K": {"0": "K0.mtx"}, "nodes": "x.csv", "tip": "tip.csv"}
 BLADES = {  # that differ from the reference blade
