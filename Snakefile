@@ -26,3 +26,11 @@ include: "workflow/rules/study.smk"
 include: "workflow/rules/paper.smk"
 include: "workflow/rules/explore.smk"
 include: "workflow/rules/numbers.smk"
+
+
+onstart:
+    # Jobs that Snakemake starts as runs of their own are no other run. Kept open until this one ends.
+    if workflow.is_main_process:
+        workflow.at_work = hold(Path(".snakemake/at-work"))
+        if workflow.at_work is None:
+            print(WARNING + ANOTHER, file=sys.stderr)

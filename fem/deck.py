@@ -10,7 +10,7 @@ from scipy.sparse import csr_matrix, eye_array, kron
 from fem.interface import on_patches
 from fem.matrix_files import FileMatrix
 from geometry.blade import MeshFile
-from geometry.file_mesh import UNITS
+from geometry.file_physics import UNITS
 from geometry.frame import rotation, to_blade
 from geometry.mesh_faces import root_and_tip
 from geometry.mesh_file import read_mesh_file

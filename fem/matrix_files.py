@@ -3,13 +3,15 @@
 Programs write one triangle of M and K, and most of them the node and direction of each row.
 """
 
+import re
 from collections.abc import Callable
+from io import BytesIO
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.io import mmread
+from scipy.io import mminfo, mmread
 from scipy.sparse import csr_matrix, diags, load_npz
 
 from geometry.given import Check, failed
@@ -70,11 +72,12 @@ def read_matrix(path: Path, letter: str) -> FileMatrix:
     require(
         path,
         (
-            np.isrealobj(matrix.A.data) and np.isfinite(matrix.A.data).all(),
-            "holds values that are not finite real numbers",
+            not np.imag(matrix.A.data).any(),
+            "is complex: give the real part alone, as of a model without structural damping",
         ),
+        (np.isfinite(matrix.A.data).all(), "holds values that are not finite"),
     )
-    return matrix._replace(A=matrix.A.astype(float))
+    return matrix._replace(A=csr_matrix(matrix.A.real.astype(float)))
 
 
 def _npz(path: Path, letter: str) -> FileMatrix:
@@ -86,12 +89,10 @@ def _mtx(path: Path, letter: str) -> FileMatrix:
     with open(path) as file:
         head = next((line for line in file if line.strip() and line[0] != "*"), "")
     if head.startswith("%%MatrixMarket"):
-        return FileMatrix(csr_matrix(mmread(path, spmatrix=False)))
+        return FileMatrix(_market(path))
     *places, values = _columns(path, "," if "," in head else None)
     if len(places) == 2:
-        return FileMatrix(
-            _whole(csr_matrix((values, np.array(places, dtype=int) - 1)), len(values))
-        )
+        return FileMatrix(_whole(_placed(*places, values), len(values)))
     require(
         path,
         (
@@ -102,13 +103,36 @@ def _mtx(path: Path, letter: str) -> FileMatrix:
     return _of_labels(np.array(places, dtype=int).T, values)
 
 
+def _market(path: Path) -> csr_matrix:
+    """A matrix of Matrix Market; ``mmread`` would end a number at a D or a comma, unnoticed."""
+    rows, columns, entries, layout, kind, symmetry = mminfo(path)
+    require(
+        path,
+        (kind != "pattern", "says which entries there are, not their values: write them too"),
+        (symmetry in ("general", "symmetric"), f"is {symmetry}, where M and K are symmetric"),
+    )
+    text = _of_fortran(path)
+    lines = enumerate(text.splitlines(), 1)
+    size = next(place for place, line in lines if line.strip() and line[:1] != b"%")
+    if layout == "array":
+        body = b"".join(text.splitlines(keepends=True)[size:])
+        np.array(body.split(), dtype=float)  # refuses what mmread would end a number at
+        return csr_matrix(mmread(BytesIO(text)))
+    i, j, *values = _columns(path, comments="%", skip=size)
+    require(path, (len(i) == entries, f"has {len(i)} entries, its head says {entries}"))
+    A = _placed(i, j, values[0] + 1j * values[1] if values[1:] else values[0], (rows, columns))
+    return A + A.T - diags(A.diagonal()) if symmetry == "symmetric" else A
+
+
 def _calculix(path: Path, letter: str) -> FileMatrix:
     """One triangle; the rows are named in the file .dof of the same job, as 12.3."""
     dof = path.with_suffix(".dof")
     with about(dof, GivenError):
         names = read_text(dof, most=None).split()
-    i, j, values = _columns(path)
-    A = _whole(csr_matrix((values, (i.astype(int) - 1, j.astype(int) - 1))), len(values))
+    columns = _columns(path)
+    require(path, (len(columns) == 3, f"{len(columns)} numbers a line, needs 3"))
+    i, j, values = columns
+    A = _whole(_placed(i, j, values), len(values))
     require(
         path,
         (
@@ -123,11 +147,12 @@ def _dmig(path: Path, letter: str) -> FileMatrix:
     """The matrix of a punch file whose name begins with a letter; fields have 16 characters."""
     entries, name, line = [], "", ""
     for line in read_text(path, most=None).splitlines(keepends=True):
-        first, second, third, *_ = (line[i : i + 16].strip() for i in range(8, 72, 16))
+        first, second, third, imaginary = (line[i : i + 16].strip() for i in range(8, 72, 16))
         if not line.startswith("*"):  # other cards, as GRID*, have such lines too
             name, *column = (first, second, third) if line.startswith("DMIG*") else ("",)
         elif name:
-            entries.append((name, *column, first, second, number(third)))
+            value = number(third) + 1j * number(imaginary or "0")
+            entries.append((name, *column, first, second, value))
     # K4 is structural damping
     names = {name for name, *_ in entries if name.startswith(letter) and name[1:2] != "4"}
     require(
@@ -164,16 +189,31 @@ READERS: dict[str, Callable[[Path, str], FileMatrix]] = {
 }
 
 
-def _columns(path: Path, delimiter: str | None = None) -> NDArray[np.float64]:
+def _columns(
+    path: Path, delimiter: str | None = None, comments: str = "*", skip: int = 0
+) -> NDArray[np.float64]:
     """Columns (k, n) of numbers; the last line must have its end, else a number may lack digits."""
-    require(
-        path,
-        (
-            path.read_bytes().endswith(b"\n"),
-            "its last line has no end: is the file cut short?",
-        ),
-    )
-    return np.loadtxt(path, delimiter=delimiter, comments="*", ndmin=2).T
+    text = _of_fortran(path)
+    require(path, (text.endswith(b"\n"), "its last line has no end: is the file cut short?"))
+    lines = BytesIO(text)
+    return np.loadtxt(lines, delimiter=delimiter, comments=comments, ndmin=2, skiprows=skip).T
+
+
+def _of_fortran(path: Path) -> bytes:
+    """The text of a file, the exponents of its numbers with the letter E."""
+    return re.sub(rb"(?<=[\d.])[dD](?=[-+\d])", b"E", path.read_bytes())
+
+
+def _placed(
+    i: NDArray, j: NDArray, values: NDArray, shape: tuple[int, int] | None = None
+) -> csr_matrix:
+    """A matrix of ``values`` (n,) in rows ``i`` and columns ``j``, from 1."""
+    places = np.array([i, j])
+    if places.min() < 1 or np.any(places != np.round(places)):
+        raise GivenError(
+            f"an entry is in row or column {places.min():g}: they are whole numbers, counted from 1"
+        )
+    return csr_matrix((values, places.astype(int) - 1), shape)
 
 
 def _of_labels(labels: NDArray, values: NDArray) -> FileMatrix:

@@ -15,11 +15,12 @@ from dolfinx.io.gmsh import model_to_mesh
 from dolfinx.mesh import Mesh
 
 from geometry.blade import Material
+from geometry.jacobians import DEGREE
 from geometry.project import known
 from geometry.shape import merge, session
 
 BASIX_TO_VTK = np.array([0, 1, 2, 5, 3, 4])  # basix: the middles opposite the corners 0, 1, 2
-QUADRATURE = {"quadrature_degree": 4}  # exact for the P2 tangent on straight-sided tetrahedra
+QUADRATURE = {"quadrature_degree": DEGREE}
 
 
 @dataclass(frozen=True)

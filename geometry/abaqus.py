@@ -7,14 +7,15 @@ neither *SURFACE nor the six-node plane elements that gmsh writes.
 
 import re
 from collections.abc import Collection, Iterable, Iterator
-from dataclasses import dataclass, field, replace
-from itertools import pairwise
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
+from geometry.cards import Card, read_cards
+from geometry.deck_physics import physics_of
 from geometry.file_mesh import FileMesh, Solids, as_tetrahedra
-from geometry.project import MeshError, number, read_text, shown
+from geometry.project import MeshError, number, shown
 from geometry.split import KINDS, NODES
 
 SOLID = re.compile(r"(?:C3D|CTETRA|CHEXA|CPENTA|CPYRAM)(\d+)")
@@ -24,8 +25,6 @@ LINE = re.compile(r"B\d|T[23]D|R2D|RB|PIPE|FRAME|SPRING|DASHPOT|GAP|MASS|ROTARYI
 CORNERS = {3: 3, 6: 3, 4: 4, 8: 4, 9: 4}  # of shells, by the number of their nodes
 MOST_DIGITS = 10  # of a number
 MOST_UNUSED = 0.1  # of the nodes: those of reference points and beams are fewer
-# a row with options: one that has a value, or first one that has none
-OPTION = re.compile(r".*=|(GENERATE|INTERNAL|UNSORTED)\s*(,|$)", re.IGNORECASE)
 ELSEWHERE = {  # options that change the rows of a card, or take their place
     "INPUT": "its rows are in another file",
     "OFFSET": "its numbers are shifted",
@@ -39,22 +38,6 @@ REFUSED = {"INCLUDE": INCLUDES} | dict.fromkeys(
     ("NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM"),
     "{} generates nodes or elements: export the mesh itself",
 )
-
-
-@dataclass
-class Card:
-    """A card of a deck, with its options and its rows."""
-
-    keyword: str
-    options: dict[str, str]
-    line: int
-    rows: list[tuple[int, list[str]]] = field(default_factory=list)  # with their lines
-
-    def option(self, name: str) -> str:
-        """An option without which the card says nothing."""
-        if not self.options.get(name):
-            raise MeshError(f"*{self.keyword} has no {name}", line=self.line)
-        return self.options[name]
 
 
 type _Elements = dict[int, tuple[str, list[int]]]  # kind and nodes by number
@@ -72,9 +55,10 @@ def read_deck(path: Path) -> FileMesh:
         be read, a node or element that is incomplete or defined twice in different ways, a set of
         some that are not defined.
     """
-    cards = list(_of_part(_cards(path)))
+    whole = read_cards(path)
+    cards = list(_of_part(whole))
     _check(cards)
-    mesh = mesh_of(cards)
+    mesh = mesh_of(cards, whole)
     nodes, unused = len(mesh.points), len(mesh.points) - len(np.unique(mesh.cells))
     # a deck has no end, and may lack its last elements
     if cards[-1].keyword == "ELEMENT" and unused > MOST_UNUSED * nodes:
@@ -84,8 +68,10 @@ def read_deck(path: Path) -> FileMesh:
     return mesh
 
 
-def mesh_of(cards: list[Card]) -> FileMesh:
+def mesh_of(cards: list[Card], whole: list[Card]) -> FileMesh:
     """The mesh that ``cards`` define, by the keywords of Abaqus.
+
+    ``whole``: with those of an assembly's own, of which materials and masses are read.
 
     Raises
     ------
@@ -122,6 +108,7 @@ def mesh_of(cards: list[Card]) -> FileMesh:
         ],
         {name: rows(numbers) for name, numbers in node_sets.items()},
         {name: [[row[i] for i in face] for face in corners] for name, corners in faces.items()},
+        physics_of(whole, set().union(*numbers_by_kind.values()), element_sets),
     )
 
 
@@ -160,30 +147,6 @@ def _elements(cards: list[Card], nodes: Collection[int]) -> _Elements:
                     "elements of all parts anew"
                 )
     return elements
-
-
-def _cards(path: Path) -> list[Card]:
-    """All cards, the first with the rows before them.
-
-    Of CalculiX also those that end with a comma, which Abaqus takes for "goes on".
-    """
-    cards = [Card("", {}, 0)]
-    lines = enumerate(map(str.strip, read_text(path, most=None, errors="replace").splitlines()), 1)
-    read = ((place, line) for place, line in lines if line and not line.startswith("**"))
-    for (_, before), (place, line) in pairwise([(0, ""), *read]):
-        if line.startswith("*"):
-            keyword, _, options = line.lstrip("*").partition(",")
-            cards.append(Card(keyword.strip().upper(), _options(options), place))
-        elif before.endswith(",") and not cards[-1].rows and OPTION.match(line):
-            cards[-1].options |= _options(line)
-        else:
-            cards[-1].rows.append((place, [value.strip() for value in line.split(",")]))
-    return cards
-
-
-def _options(text: str) -> dict[str, str]:
-    pairs = [option.partition("=") for option in text.split(",")]
-    return {name.strip().upper(): value.strip().strip('"').upper() for name, _, value in pairs}
 
 
 def _of_part(cards: Iterable[Card]) -> Iterator[Card]:

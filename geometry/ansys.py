@@ -1,11 +1,13 @@
 """Reader of the archive of an Ansys model (``.cdb``), as CDWRITE and Workbench write it.
 
-mapdl-archive reads its blocks, but takes damaged ones in silence: the numbers of nodes and elements
-that the blocks declare are checked here, and materials are read. Only blocks of elements in their
-SOLID form are read.
+mapdl-archive reads its elements and components, but takes damaged blocks in silence: the numbers
+that the blocks declare are checked here, and nodes and materials are read; of nodes in blocks of
+three fields it would lose the third coordinate. Only blocks of elements in their SOLID form are
+read.
 """
 
 import re
+from collections import Counter
 from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
@@ -16,13 +18,17 @@ from mapdl_archive import Archive
 from mapdl_archive.elements import ETYPE_MAP
 from numpy.typing import NDArray
 
-from geometry.file_mesh import FileMaterial, FileMesh, Solids, as_tetrahedra, require_all
-from geometry.project import MeshError
+from geometry.file_mesh import FileMesh, Solids, as_tetrahedra, require_all
+from geometry.file_physics import FileMaterial, Physics, agree
+from geometry.project import MeshError, number
 
 FACE, BRICK, TETRAHEDRON = 3, 4, 5  # values of ETYPE_MAP, by the number of an element type
-MESH200, OF_FACES = 200, (4, 5, 6, 7)  # the type that only meshes, and its KEYOPT(1) of faces
+# the type that only meshes, and what it is by its KEYOPT(1)
+MESH200 = 200
+MESHING = dict.fromkeys((4, 5, 6, 7), FACE) | {8: TETRAHEDRON, 9: TETRAHEDRON, 10: BRICK, 11: BRICK}
+MASS21 = 21
 HEADER = 10  # numbers of an element before its nodes
-MATERIAL, TYPE, NUMBER = 0, 1, 8  # places among them
+MATERIAL, TYPE, SYSTEM, NUMBER = 0, 1, 4, 8  # places among them
 # nodes of a brick that are those of another cell, by the number of different corners; VTK's order
 COLLAPSED = {
     4: ("tetra", [0, 1, 2, 4, 8, 9, 11, 16, 17, 18]),  # I J K K M M M M
@@ -39,6 +45,15 @@ LABELS = {
     "NUXY": "poisson_ratio",
     "DENS": "density",
 }
+FORMAT = re.compile(r"\((\d*)i(\d+),(\d+)e(\d+)\.\d+(?:e\d+)?\)")  # of a block of nodes
+# TB of elastic laws; with others, as of plasticity, a material may be isotropic
+NOT_ISOTROPIC = re.compile(r"ANEL|HYPER|ELASTIC.*(ORTH|AELS|AELF)")
+COMMAND = re.compile(r"[A-Z]\w*")
+# commands that are read, and those that only frame them
+TAKEN = {
+    *("NBLOCK", "EBLOCK", "CMBLOCK", "ET", "KEYOPT", "KEYOP", "ETBLOCK", "N", "FINISH", "CMEDIT"),
+    *("MP", "MPDATA", "MPTEMP", "NUMOFF"),
+}
 EXPORT = "export it anew with `CDWRITE,DB`"
 
 
@@ -47,6 +62,7 @@ class _Element(NamedTuple):
 
     number: int
     material: int
+    turned: bool  # in a coordinate system of its own
     kind: str
     nodes: NDArray
 
@@ -62,16 +78,17 @@ def read_archive(path: Path) -> FileMesh:
     """
     lines = path.read_text(encoding="latin-1").splitlines()
     nodes, elements = _declared(lines)
+    numbers, points = _nodes(lines)
     archive = Archive(path, parse_vtk=False)
-    require_all("nodes", nodes, len(archive.nnum), EXPORT)
+    require_all("nodes", nodes, len(numbers), EXPORT)
     require_all("elements", elements, len(archive.elem), EXPORT)
-    row = np.full(int(archive.nnum.max()) + 1, ABSENT)
-    row[archive.nnum] = np.arange(len(archive.nnum))
+    row = np.full(int(numbers.max()) + 1, ABSENT)
+    row[numbers] = np.arange(len(numbers))
     row[0] = ABSENT
-    solids, faces = _sorted(archive, row)
+    solids, faces, others = _sorted(archive, row)
     return as_tetrahedra(
-        np.asarray(archive.nodes, dtype=float),
-        archive.nnum,
+        points,
+        numbers,
         _solids(solids),
         node_groups={
             name.upper(): _rows(numbers, row) for name, numbers in archive.node_components.items()
@@ -80,7 +97,7 @@ def read_archive(path: Path) -> FileMesh:
             name.upper(): [faces[i] for i in numbers if i in faces]
             for name, numbers in archive.element_components.items()
         },
-        materials=_materials(lines, {element.material for element in solids}),
+        physics=_physics(lines, solids, others),
     )
 
 
@@ -94,7 +111,6 @@ def _declared(lines: list[str]) -> tuple[int | None, int | None]:
         raise MeshError(f"holds no {missing}, its nodes and elements in blocks: {EXPORT}")
     if len(node_blocks) > 1:
         raise MeshError(f"holds {len(node_blocks)} NBLOCK, allowed one: {EXPORT}")
-    _require_numbers(lines)
     counts = [_count(head) for head in element_blocks]
     return _count(node_blocks[0]), None if None in counts else sum(counts)
 
@@ -104,40 +120,66 @@ def _count(head: list[str]) -> int | None:
     return int(head[4]) or None if len(head) > 4 and head[4].isdigit() else None
 
 
-def _require_numbers(lines: list[str]) -> None:
-    """Refuse other signs than those of numbers in the block of nodes."""
-    first = next(i for i, line in enumerate(lines) if line.upper().startswith("NBLOCK")) + 2
-    for number, line in enumerate(lines[first:], first + 1):
-        if line[:1] not in " 0123456789":  # -1, or the next command
-            return
-        if strange := re.search(r"[^\d\s.eEdD+-]", line):
-            raise MeshError(f"{strange[0]!r} among the coordinates: {EXPORT}", line=number)
+def _nodes(lines: list[str]) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    """Numbers (n,) and coordinates (n, 3) of the block of nodes, by the format in its second line.
 
-
-def _sorted(archive: Archive, row: NDArray) -> tuple[list[_Element], dict[int, list[int]]]:
-    """Solid elements, and corners of faces by their number; others are left out."""
-    types = dict(archive.ekey.tolist())
-    meshing = {
-        key
-        for key, number in types.items()
-        for option, value in archive.key_option.get(key, ())
-        if number == MESH200 and option == 1 and value in OF_FACES
-    }
-    solids, faces = [], {}
-    for values in archive.elem:
-        kind, nodes = types.get(int(values[TYPE])), _rows(values[HEADER:], row, absent=0)
-        if kind is None:
-            raise MeshError(
-                f"element {values[NUMBER]} has type {values[TYPE]}, which no ET defines: {EXPORT}"
+    A line may lack coordinates at its end, which are 0.
+    """
+    head = next(i for i, line in enumerate(lines) if line.upper().startswith("NBLOCK"))
+    fields = FORMAT.fullmatch("".join(lines[head + 1 : head + 2]).strip().lower())
+    if not fields or int(fields[3]) < 3:
+        raise MeshError(
+            f"its nodes have no format that is read, as (3i9,6e21.13e3): {EXPORT}", line=head + 2
+        )
+    whole, wide, count, width = (int(field or 1) for field in fields.groups())
+    begin, numbers, points = whole * wide, [], []
+    for place, line in enumerate(lines[head + 2 :], head + 3):
+        if line[:1] not in " 0123456789" or line[:wide].strip() == "-1":  # or the next command
+            break
+        starts = range(begin, begin + 3 * width, width)
+        try:
+            if len(line.rstrip()) > begin + count * width:
+                raise ValueError("it is longer than the format of its block")
+            numbers.append(int(line[:wide]))
+            points.append(
+                [number(text) if (text := line[i : i + width]).strip() else 0.0 for i in starts]
             )
-        category = ETYPE_MAP[kind]
+        except ValueError as error:
+            raise MeshError(f"a node cannot be read ({error}): {EXPORT}", line=place) from None
+    if not numbers:
+        raise MeshError(f"its block of nodes is empty: {EXPORT}", line=head + 1)
+    return np.array(numbers), np.array(points)
+
+
+def _sorted(
+    archive: Archive, row: NDArray
+) -> tuple[list[_Element], dict[int, list[int]], Counter[str]]:
+    """Solid elements, corners of faces by their number, and how many others there are by kind."""
+    types = dict(archive.ekey.tolist())
+    categories = {key: ETYPE_MAP[kind] for key, kind in types.items()} | {
+        key: MESHING[value]
+        for key, kind in types.items()
+        for option, value in archive.key_option.get(key, ())
+        if kind == MESH200 and option == 1 and value in MESHING
+    }
+    solids, faces, others = [], {}, Counter()
+    for values in archive.elem:
+        key, nodes = int(values[TYPE]), _rows(values[HEADER:], row, absent=0)
+        if key not in types:
+            raise MeshError(
+                f"element {values[NUMBER]} has type {key}, which no ET defines: {EXPORT}"
+            )
+        category = categories[key]
         if category in (BRICK, TETRAHEDRON):
             solids.append(_solid(values, nodes, category))
-        elif category == FACE or values[TYPE] in meshing:
+        elif category == FACE:
             # a triangle has three or six nodes, or those of a quadrilateral with I J K K
             corners = 4 if len(nodes) in (4, 8) and nodes[2] != nodes[3] else 3
             faces[int(values[NUMBER])] = nodes[:corners].tolist()
-    return solids, faces
+        others["MASS21" if types[key] == MASS21 else f"elements of type {types[key]}"] += (
+            category not in (BRICK, TETRAHEDRON)
+        )
+    return solids, faces, others
 
 
 def _rows(numbers: NDArray, row: NDArray, absent: int | None = None) -> NDArray:
@@ -161,7 +203,8 @@ def _solid(values: NDArray, nodes: NDArray, category: int) -> _Element:
     used = np.append(nodes, np.full(MOST_NODES, ABSENT))[places]
     if len(np.unique(used[:corners])) < corners:
         kind, used = OTHER, used[:0]
-    return _Element(int(values[NUMBER]), int(values[MATERIAL]), kind, used)
+    turned = bool(values[SYSTEM])
+    return _Element(int(values[NUMBER]), int(values[MATERIAL]), turned, kind, used)
 
 
 def _solids(elements: list[_Element]) -> list[Solids]:
@@ -184,13 +227,42 @@ def _solids(elements: list[_Element]) -> list[Solids]:
     ]
 
 
-def _materials(lines: list[str], used: set[int]) -> tuple[FileMaterial, ...]:
-    """Elastic materials of the solid elements, at the first of their temperatures."""
-    values: dict[int, dict[str, float]] = {number: {} for number in sorted(used)}
-    for label, number, value in _properties(lines):
-        if number in used and label in LABELS:
-            values[number].setdefault(LABELS[label], value)
-    return tuple(FileMaterial(str(number), **constants) for number, constants in values.items())
+def _physics(lines: list[str], solids: list[_Element], others: Counter[str]) -> Physics:
+    """Materials of the solid elements, at the first of their temperatures, and what is not read."""
+    commands = [line.partition("!")[0].upper().split(",") for line in lines if line[:1].isalpha()]
+    named = Counter(
+        command for command, *_ in commands if COMMAND.fullmatch(command) and command not in TAKEN
+    )
+    values: dict[int, dict[str, float]] = {}
+    for label, material, value in _properties(lines):
+        values.setdefault(material, {}).setdefault(label, value)
+    laws = {
+        fields[1].strip(): f"TB,{fields[0].strip()}"
+        for command, *fields in commands
+        if command == "TB" and len(fields) > 1 and NOT_ISOTROPIC.search(",".join(fields))
+    }
+    of_cells = Counter(element.material for element in solids)
+    turned = {element.material for element in solids if element.turned}
+    materials = []
+    for key, cells in sorted(of_cells.items()):
+        constants = values.get(key, {})
+        faults = [laws.get(str(key), ""), _not_isotropic(constants), "ESYS" * (key in turned)]
+        known = {LABELS[label]: x for label, x in constants.items() if label in LABELS}
+        other = " and ".join(filter(None, faults))
+        materials.append(FileMaterial(str(key), **known, cells=cells, other=other))
+    masses = Counter({"MASS21": others.pop("MASS21", 0)})
+    return Physics(tuple(materials), +masses, +others + named)
+
+
+def _not_isotropic(values: dict[str, float]) -> str:
+    """Labels of a material whose values are not those of an isotropic one."""
+    E, nu = values.get("EX", 0.0), values.get("PRXY", values.get("NUXY", 0.0))
+    isotropic = {"E": E, "N": nu, "P": nu, "G": E / (2 + 2 * nu)}
+    return " ".join(
+        label
+        for label, value in values.items()
+        if re.fullmatch(r"(E|G|NU|PR)[XYZ]+", label) and not agree(value, isotropic[label[0]])
+    )
 
 
 def _properties(lines: list[str]) -> Iterator[tuple[str, int, float]]:

@@ -4,7 +4,7 @@ from math import inf, pi
 from pathlib import Path, PurePath
 from typing import Annotated, Any, ClassVar, Literal
 
-from pydantic import Field
+from pydantic import Discriminator, Field, Tag
 
 from geometry.project import Settings, SettingsError, SettingsFile, checked, file_hash, one_of
 
@@ -112,15 +112,30 @@ class SectionTable(SourceFile):
     )
 
 
+Name = Annotated[str, Field(min_length=1)]
+# chosen by the kind of value, so that an error is reported for the form that was meant
+Groups = Annotated[
+    Annotated[Name, Tag("name")] | Annotated[tuple[Name, ...], Field(min_length=1), Tag("names")],
+    Discriminator(lambda value: "names" if isinstance(value, list | tuple) else "name"),
+]
+
+
 class Face(Settings):
     """Faces of a CAD file or mesh, by group name or by radius."""
 
     either: ClassVar = [("group", "radius_mm")]
 
-    group: str | None = Field(default=None, description="Name of the group")
+    group: Groups | None = Field(
+        default=None, description="Name of the group, or a list of several names"
+    )
     radius_mm: Length | None = Field(
         default=None, description="Faces entirely inside (root) or outside (tip) this radius (mm)"
     )
+
+    @property
+    def groups(self) -> tuple[str, ...]:
+        """Names of the groups."""
+        return (self.group,) if isinstance(self.group, str) else self.group or ()
 
 
 class SolidFile(SourceFile):
@@ -136,6 +151,16 @@ class Cad(SolidFile):
 
 class MeshFile(SolidFile):
     """Blade from a mesh of another program: Abaqus/CalculiX, Ansys, Nastran, Gmsh or VTK."""
+
+
+class MeshGeometry(MeshFile):
+    """Mesh of another program whose tetrahedra are integrated here."""
+
+    straighten: bool = Field(
+        default=False,
+        description="Move middle nodes to the middle of their edge, where cells would be refused "
+        "for them: at thin curved edges, or at a quarter of an edge. What it costs is told",
+    )
 
 
 class MeshSize(Settings):
@@ -354,7 +379,7 @@ class Blade(SettingsFile):
         default=None, description="Geometry from a table of section coordinates"
     )
     cad: Cad | None = Field(default=None, description="Geometry from a CAD file")
-    mesh_file: MeshFile | None = Field(default=None, description="Geometry from a mesh")
+    mesh_file: MeshGeometry | None = Field(default=None, description="Geometry from a mesh")
     mesh: MeshSize | None = Field(default=None, description="Mesh; required without mesh_file")
     material: Material = Field(description="Material")
     fatigue: Fatigue | None = Field(
@@ -491,7 +516,7 @@ class Blade(SettingsFile):
         return next(name for name in SOURCES if getattr(self, name) is not None)
 
     @property
-    def source(self) -> Sections | SectionTable | Cad | MeshFile:
+    def source(self) -> Sections | SectionTable | Cad | MeshGeometry:
         """Settings of the source of geometry."""
         return getattr(self, self.source_key)
 

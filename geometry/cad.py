@@ -233,12 +233,12 @@ def _find(cad: Cad, end: str, solid: int, groups: dict[str, list[int]]) -> tuple
         r = np.array([radii(tag) for tag in faces])
         chosen = within_radius(f"cad.{end}", face.radius_mm, r, ROUND_OFF)
         return tuple(compress(faces, chosen))
-    if face.group not in groups:
+    if unknown := [name for name in face.groups if name not in groups]:
         names = ", ".join(sorted(groups)) or "none; give radius_mm"
         raise MeshError(
             f"no face has this name; names: {names}",
             key=f"cad.{end}.group",
-            value=face.group,
+            value=unknown[0],
             allowed=sorted(groups),
         )
-    return tuple(groups[face.group])
+    return tuple(tag for name in dict.fromkeys(face.groups) for tag in groups[name])

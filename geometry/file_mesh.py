@@ -1,7 +1,4 @@
-"""A mesh read from a file of another program: points, tetrahedra, named groups and materials.
-
-Materials are shown, and compared with that of the blade, which is taken.
-"""
+"""A mesh read from a file of another program: points, tetrahedra, named groups."""
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -12,53 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_matrix
 
-from geometry.blade import Material
+from geometry.file_physics import Physics
 from geometry.frame import box
 from geometry.project import MeshError
-from geometry.split import NODES, Block, split, triangles_of
-
-UNITS = {  # of stress (Pa) and of density (kg/m3) by that of length, as programs pair them
-    "m": (1.0, 1.0, "Pa and kg/m3"),
-    "cm": (1e4, 1e8, "N/cm2 and N s2/cm4"),
-    "mm": (1e6, 1e12, "MPa and t/mm3"),
-    "in": (6894.757, 1.06869e7, "psi and lbf s2/in4"),
-}
-APART = 0.01  # relative difference of which is warned
-
-
-@dataclass(frozen=True)
-class FileMaterial:
-    """An elastic material in the units of its file; None for values that the file does not give."""
-
-    name: str
-    young_modulus: float | None = None
-    poisson_ratio: float | None = None
-    density: float | None = None
-
-    def taken_in(self, unit: str) -> dict[str, float]:
-        """Values by the key of ``Material``, if its units go with the file's ``unit`` of length."""
-        stress, density, _ = UNITS[unit]
-        values = {
-            "young_modulus_GPa": self.young_modulus and self.young_modulus * stress * 1e-9,
-            "poisson_ratio": self.poisson_ratio,
-            "density_kg_m3": self.density and self.density * density,
-        }
-        return {key: value for key, value in values.items() if value is not None}
-
-    def described(self, unit: str) -> str:
-        """The values that the file has, and the units in which they are read."""
-        values = ", ".join(f"{key} {value:.5g}" for key, value in self.taken_in(unit).items())
-        return (
-            f"material {self.name} of the file, read in {UNITS[unit][2]}: {values or 'no values'}"
-        )
-
-    def differs(self, material: Material, unit: str) -> list[str]:
-        """Keys of ``material``, with its value, where the file says something else."""
-        return [
-            f"{key} {getattr(material, key):.5g}"
-            for key, value in self.taken_in(unit).items()
-            if not abs(value - getattr(material, key)) <= APART * abs(getattr(material, key))
-        ]
+from geometry.split import NODES, Block, flat_corners_first, split, triangles_of
 
 
 @dataclass
@@ -70,9 +24,11 @@ class FileMesh:
     numbers: NDArray[np.int64]  # (m,), of the cells of the file that they are of
     node_numbers: NDArray[np.int64]  # (given,), of the nodes of the file
     weights: csr_matrix  # (n, given), of the nodes of the file in the place of each point
+    parents: NDArray[np.int64]  # (k, 4), nodes, of the last k points, as of ``Split``
+    blocks: tuple[Block, ...] = ()  # cells of the file, on the first of the points
     node_groups: dict[str, NDArray] = field(default_factory=dict)  # nodes (k,)
     face_groups: dict[str, NDArray] = field(default_factory=dict)  # corner nodes (k, 3), k may be 0
-    materials: tuple[FileMaterial, ...] = ()  # of its cells, where the file names them
+    physics: Physics = field(default_factory=Physics)
     first_order: bool = False  # its cells have no middle nodes in the file
     made: str = ""  # source of its tetrahedra, where the file has other cells
 
@@ -107,6 +63,8 @@ class FileMesh:
             self,
             points=self.points[used],
             weights=self.weights[used],
+            parents=new[self.parents],
+            blocks=(),
             cells=new[self.cells],
             node_groups={n: new[nodes][new[nodes] >= 0] for n, nodes in self.node_groups.items()},
             face_groups={n: new[faces] for n, faces in self.face_groups.items()},
@@ -127,10 +85,11 @@ def as_tetrahedra(
     solids: Sequence[Solids],
     node_groups: Mapping[str, NDArray],
     faces: Mapping[str, Sequence[Sequence[int]]],
-    materials: tuple[FileMaterial, ...] = (),
+    physics: Physics,
 ) -> FileMesh:
     """The mesh of all solid cells, as tetrahedra (``geometry.split``).
 
+    Nodes at flat corners of quadrilaterals are put before all others: the split cuts from them.
     ``points`` (given, 3) and ``node_numbers`` (given,) are those of the file; ``faces``: corners of
     triangles and quadrilaterals by group.
 
@@ -140,7 +99,10 @@ def as_tetrahedra(
         When there are none, some of other kinds, or of first and of second order; as ``split``.
     """
     blocks = _blocks(solids)
-    tetrahedra = split(points, blocks)
+    order = flat_corners_first(points, blocks)
+    place = np.argsort(order)
+    blocks = [block._replace(nodes=place[block.nodes]) for block in blocks]
+    tetrahedra = split(points[order], blocks)
     made = ""
     if any(block.corners.shape[1] != 4 for block in blocks):
         given = len(np.unique(np.concatenate([block.nodes.ravel() for block in blocks])))
@@ -152,11 +114,18 @@ def as_tetrahedra(
         points=tetrahedra.points,
         cells=tetrahedra.cells,
         numbers=tetrahedra.numbers,
-        node_numbers=node_numbers,
+        node_numbers=node_numbers[order],
         weights=tetrahedra.weights,
-        node_groups={name: tetrahedra.with_new(nodes) for name, nodes in node_groups.items()},
-        face_groups={name: triangles_of(corners) for name, corners in faces.items()},
-        materials=materials,
+        parents=tetrahedra.parents,
+        blocks=tuple(blocks),
+        node_groups={
+            name: tetrahedra.with_new(place[nodes]) for name, nodes in node_groups.items()
+        },
+        face_groups={
+            name: triangles_of([place[list(face)] for face in corners])
+            for name, corners in faces.items()
+        },
+        physics=physics,
         first_order=not blocks[0].second_order,
         made=made,
     )
@@ -164,11 +133,14 @@ def as_tetrahedra(
 
 def _blocks(solids: Sequence[Solids]) -> list[Block]:
     if not any(len(cells.nodes) for cells in solids):
-        raise MeshError("holds no tetrahedra, bricks, wedges or pyramids")
+        raise MeshError(
+            "holds no tetrahedra, bricks, wedges or pyramids, at most faces and lines: export the "
+            "cells of the volume too (of gmsh those of a physical volume are saved)"
+        )
     if other := [cells for cells in solids if cells.nodes.shape[1] not in NODES]:
         raise MeshError(
             f"holds {_held(other)}: read are tetrahedra, bricks, wedges and pyramids of first or "
-            "second order"
+            "second order (of VTK its quadratic cells, not those of Lagrange or Bezier)"
         )
     blocks = [Block(cells.nodes, cells.numbers) for cells in solids if len(cells.nodes)]
     if len({block.second_order for block in blocks}) > 1:

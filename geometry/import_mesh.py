@@ -8,18 +8,22 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
-from geometry.blade import MeshFile
-from geometry.frame import to_blade, turned
+from geometry.blade import MeshGeometry
+from geometry.file_mesh import FileMesh
+from geometry.frame import axes, to_blade, turned
+from geometry.jacobians import of_file, of_tetrahedra
 from geometry.mesh_faces import root_and_tip
 from geometry.mesh_file import read_mesh_file
 from geometry.project import MeshError, MeshWarning
-from geometry.shape import CELL, FACET, Shape, jacobian_ratios
+from geometry.shape import CELL, FACET, Shape
 from geometry.tetrahedra import EDGES, GMSH, edge_lengths, exterior
 
-MOST_APART = 4.0  # times; 1.6 on our own meshes
+LEAST_AROUND = 120.0  # degrees; 255 on our own meshes, 190 at the end of a sharp edge of 10 degrees
 MOST_BENT = 0.5  # of an edge's length: half a circle; below 0.02 on our own meshes
 MERGED = 1e-3  # of the median edge; above 0.03 across a thin trailing edge
-FLAT = 1e-6  # radius of the sphere within a cell over that around it, 1 of a regular one
+MOST_ALONG = 0.24  # of an edge, from its middle to its middle node
+STRAIGHTEN = "straighten its edges (`mesh_file.straighten: true`)"
+BY_MATRICES = "give the matrices of its program by `full_matrices` (fem/matrices.md)"
 FACETED = (
     "cells of first order are taken as ten-node tetrahedra, for four-node ones lock in bending (f1 "
     "some 4 to 11 % high); but their edges stay straight where the blade is curved: export cells "
@@ -27,82 +31,174 @@ FACETED = (
 )
 
 
-def import_mesh(source: MeshFile, path: str | Path) -> Shape:
+def import_mesh(source: MeshGeometry, path: str | Path) -> Shape:
     """Add the mesh at ``path`` to gmsh's model, as ten-node tetrahedra in the blade's frame.
 
     Nodes that no cell uses are left out. Cells of first order are raised to second, with a
-    ``MeshWarning``.
+    ``MeshWarning``, as is the cost of edges that are straightened.
 
     Raises
     ------
     MeshError
-        When the file cannot be read, is not one solid, has cells inside out or flat, nodes that are
-        not merged, a corner far from all others or a middle node far from its edge, does not agree
-        with ``source.frame``, or has no root or tip, or a tip that is a part of its face.
+        When the file cannot be read, has physics that a blade here has not, is not one solid, has
+        cells inside out or flat where they are integrated, nodes that are not merged, a corner far
+        from all others or a middle node far from that of its edge, does not agree with
+        ``source.frame``, or has no root or tip, or a tip that is a part of its face.
     """
-    mesh = read_mesh_file(path).without_unused()
+    file = read_mesh_file(path)
+    file.physics.require_plain()
+    mesh = file.without_unused()
     if mesh.made:
         print(f"{source.file}: {mesh.made}")
     if mesh.first_order:
         warnings.warn(f"{source.file}: {FACETED}", MeshWarning, stacklevel=2)
     points, cells = to_blade(mesh.points, source), turned(mesh.cells, source)
-    _check_bent(points, cells)
+    given = np.arange(len(points)) < len(points) - len(mesh.parents)  # nodes of the file
+    points = eased(points, cells, mesh.parents)
+    _check_order(points, cells)
+    if source.straighten:
+        points = _straightened(source, points, cells, given)
+    _check_bent(points, cells, given)
     surface = exterior(cells)
     _check_merged(points, cells, np.unique(surface))
-    _check_distances(points, cells)
+    _check_needles(points, surface)
+    if not source.straighten:
+        _check_own_cells(source, file)
+    _check_along(points, cells, given)
+    _check_cells(source, points, cells, mesh.numbers)
     _add_cells(points, cells)
-    _check_orientation(points[cells[:, :4]].mean(axis=1), mesh.numbers)
     root, tip = root_and_tip(source, mesh, points, surface)
     _add_facets(root, tip)
-    return Shape(solid=1, root=(1,), tip=(2,), materials=mesh.materials)
+    return Shape(solid=1, root=(1,), tip=(2,), physics=mesh.physics)
 
 
-def _check_distances(points: NDArray, cells: NDArray) -> None:
-    """Check that no corner is much farther from its neighbours than these are from theirs.
+def eased(points: NDArray, cells: NDArray, parents: NDArray) -> NDArray:
+    """The points, the middles of diagonals nearer to the middle between their ends.
 
-    A node that was moved out of the surface stretches its cells without turning them inside out.
+    The map of a cell that is no parallelepiped shifts them along the diagonal, which makes
+    tetrahedra stiff: f2 of bricks with creases errs by 3.2 %, so by 0.9 %. They keep the shift out
+    of their quadrilateral, that is the shape of the surface; and all of it where a cell would be
+    turned inside out.
     """
-    corners, ends = np.unique(cells[:, EDGES], return_inverse=True)
-    ends = np.unique(np.sort(ends.reshape(-1, 2), axis=1), axis=0)
-    length = np.linalg.norm(np.diff(points[corners[ends]], axis=1)[:, 0], axis=1)
-    nearest = np.full(len(corners), np.inf)
-    np.minimum.at(nearest, ends, length[:, None])
-    neighbours = np.bincount(ends.ravel(), nearest[ends[:, ::-1]].ravel())
-    ratio = nearest * np.bincount(ends.ravel()) / neighbours  # over their mean
-    worst = int(ratio.argmax())
-    if not ratio[worst] <= MOST_APART:
+    if not len(parents):
+        return points
+    found, new = points.copy(), np.arange(len(points) - len(parents), len(points))
+    a, b, c, d = points[parents].transpose(1, 0, 2)
+    normal = np.cross(c - a, d - b)  # 0 of an edge or the diagonal of a brick
+    length = np.linalg.norm(normal, axis=1, keepdims=True)
+    normal = np.divide(normal, length, out=np.zeros_like(normal), where=length > 0)
+    middle = np.where(length > 0, a + c, a + d) / 2
+    out = ((points[new] - middle) * normal).sum(axis=1, keepdims=True)
+    found[new] = middle + out * normal
+    turned_over = cells[~(of_tetrahedra(found, cells).ratios > 0)]
+    kept = np.intersect1d(turned_over, new)
+    found[kept] = points[kept]
+    return found
+
+
+def _check_needles(points: NDArray, surface: NDArray) -> None:
+    """Check the angles of the facets around each corner: a node moved outwards has small ones.
+
+    It stretches its cells without turning them inside out.
+    """
+    corners = points[surface[:, :3]]
+    ahead, behind = (np.roll(corners, turn, axis=1) - corners for turn in (-1, 1))
+    turned, along = np.linalg.norm(np.cross(ahead, behind), axis=2), (ahead * behind).sum(axis=2)
+    around = np.zeros(len(points))
+    np.add.at(around, surface[:, :3], np.degrees(np.arctan2(turned, along)))
+    nodes = np.unique(surface[:, :3])
+    worst = nodes[around[nodes].argmin()]
+    if around[worst] < LEAST_AROUND:
         raise MeshError(
-            f"the node at {_place(points[corners[worst]])} mm in the blade's frame is "
-            f"{1e3 * nearest[worst]:.3g} mm from its neighbours, {ratio[worst]:.2g} times as far "
-            f"as these from theirs (allowed {MOST_APART:g}): correct its coordinates"
+            f"the node at {_place(points[worst])} mm in the blade's frame stands out of the "
+            f"surface: the facets around it make {around[worst]:.0f} degrees (allowed from "
+            f"{LEAST_AROUND:g}): correct its coordinates"
         )
 
 
-def _check_bent(points: NDArray, cells: NDArray) -> None:
-    """Check that no edge is bent beyond half a circle: its middle node was moved.
-
-    Out of the surface, where the cell grows with it and is not turned inside out.
-    """
-    off, bent = _off_middle(points, cells)
-    if bent.max() > MOST_BENT and _off_middle(points, cells[:, GMSH])[1].max() <= MOST_BENT:
+def _check_order(points: NDArray, cells: NDArray) -> None:
+    """Check that the middle nodes are not in gmsh's order."""
+    by_vtk, by_gmsh = (
+        _off_middle(points, given)[1].max() <= MOST_BENT for given in (cells, cells[:, GMSH])
+    )
+    if by_gmsh and not by_vtk:
         raise MeshError(
             "the middle nodes are in gmsh's order, not in that of the format: exchange the last "
             "two nodes of each cell"
         )
+
+
+def _check_bent(points: NDArray, cells: NDArray, given: NDArray) -> None:
+    """Check that no edge is bent beyond half a circle: its middle node was moved.
+
+    Out of the surface, where the cell grows with it and is not turned inside out. ``given`` (n,):
+    whether a node is of the file; those of diagonals are where they must be.
+    """
+    off, bent, _ = _off_middle(points, cells)
+    bent = np.where(given[cells[:, 4:]], bent, 0.0)
     cell, edge = np.unravel_index(bent.argmax(), bent.shape)
     if not bent[cell, edge] <= MOST_BENT:
         raise MeshError(
             f"the node at {_place(points[cells[cell, 4 + edge]])} mm in the blade's frame is "
             f"{1e3 * off[cell, edge]:.3g} mm from the middle of its edge, {bent[cell, edge]:.2g} "
-            f"times its length (allowed {MOST_BENT:g}): correct its coordinates"
+            f"times its length (allowed {MOST_BENT:g}): correct its coordinates, or {STRAIGHTEN}"
         )
 
 
-def _off_middle(points: NDArray, cells: NDArray) -> tuple[NDArray, NDArray]:
-    """Distance of each middle node from the middle of its edge: m, and over the edge's length."""
-    off = np.linalg.norm(points[cells[:, 4:]] - points[cells[:, EDGES]].mean(axis=2), axis=2)
-    length = edge_lengths(points, cells)
-    return off, np.divide(off, length, out=np.full_like(off, np.inf), where=length > 0)
+def _check_along(points: NDArray, cells: NDArray, given: NDArray) -> None:
+    """Check that no middle node of the file is at a quarter of its edge, as at a crack's tip."""
+    off = np.where(given[cells[:, 4:]], abs(_off_middle(points, cells)[2] - 0.5), 0.0)
+    cell, edge = np.unravel_index(off.argmax(), off.shape)
+    if off[cell, edge] > MOST_ALONG:
+        raise MeshError(
+            f"the middle node at {_place(points[cells[cell, 4 + edge]])} mm in the blade's frame "
+            f"is at {0.5 - off[cell, edge]:.2g} of its edge (allowed {0.5 - MOST_ALONG:g} to 0.5), "
+            f"where the cell is flat at a corner: move it to the middle, {STRAIGHTEN}, or "
+            f"{BY_MATRICES}"
+        )
+
+
+def _straightened(source: MeshGeometry, points: NDArray, cells: NDArray, given: NDArray) -> NDArray:
+    """The points with straight edges of those cells that would be refused; tells what that costs.
+
+    A cell may become one of them when an edge of its neighbour is straightened.
+    """
+    straight, curved = points.copy(), np.ones(len(points), dtype=bool)
+    while True:
+        _, bent, along = _off_middle(straight, cells)
+        off = (bent > MOST_BENT) | (abs(along - 0.5) > MOST_ALONG)
+        refused = (off & given[cells[:, 4:]]).any(axis=1) | ~(
+            of_tetrahedra(straight, cells).ratios > 0
+        )
+        middles, first = np.unique(cells[refused, 4:], return_index=True)
+        ends = cells[refused][:, EDGES].reshape(-1, 2)[first]
+        ends, middles = ends[curved[middles]], middles[curved[middles]]
+        if not len(middles):
+            break
+        straight[middles], curved[middles] = straight[ends].mean(axis=1), False
+    before, after = (of_tetrahedra(p, cells).volumes.sum() for p in (points, straight))
+    moved = np.linalg.norm(straight - points, axis=1)
+    warnings.warn(
+        f"{source.file}: straighten: {np.sum(~curved)} middle nodes moved to the middle of their "
+        f"edge, by up to {1e3 * moved.max():.3g} mm; the volume changes by "
+        f"{100 * (after / before - 1):+.2g} % (f1 errs by some as much)",
+        MeshWarning,
+        stacklevel=3,
+    )
+    return straight
+
+
+def _off_middle(points: NDArray, cells: NDArray) -> tuple[NDArray, NDArray, NDArray]:
+    """Distance of each middle node from the middle of its edge: m, and over the edge's length.
+
+    The third: where it is along the edge, 0 to 1 from end to end.
+    """
+    ends = points[cells[:, EDGES]]
+    vector = points[cells[:, 4:]] - ends.mean(axis=2)
+    off, length = np.linalg.norm(vector, axis=2), edge_lengths(points, cells)
+    across = (vector * (ends[:, :, 1] - ends[:, :, 0])).sum(axis=2)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return off, np.where(length > 0, off / length, np.inf), 0.5 + across / length**2
 
 
 def _check_merged(points: NDArray, cells: NDArray, surface: NDArray) -> None:
@@ -133,21 +229,38 @@ def _add_cells(points: NDArray, cells: NDArray) -> None:
     )
 
 
-def _check_orientation(middles: NDArray, numbers: NDArray) -> None:
-    """Check the smallest Jacobian determinant of each cell, by gmsh's bound on its polynomial.
+def _check_own_cells(source: MeshGeometry, file: FileMesh) -> None:
+    """Check the cells of the file by their own shape functions, before they are split."""
+    placed = file.points @ axes(source).T
+    remedy = "repair it" if file.first_order else f"repair it, or, if it is curved, {STRAIGHTEN}"
+    for block in file.blocks:
+        middles = placed[block.corners].mean(axis=1)
+        _require_positive(of_file(file.points, block).ratios, middles, block.numbers, remedy)
 
-    ``numbers`` (n,): of the cells of the file.
+
+def _check_cells(source: MeshGeometry, points: NDArray, cells: NDArray, numbers: NDArray) -> None:
+    """Check our tetrahedra of cells with these ``numbers`` (n,), which are sound as they are."""
+    remedy = f"its tetrahedra here are, the cell itself is not: {STRAIGHTEN}, or {BY_MATRICES}"
+    _require_positive(
+        of_tetrahedra(points, cells).ratios,
+        points[cells[:, :4]].mean(axis=1),
+        numbers,
+        f"repair it, or {BY_MATRICES}" if source.straighten else remedy,
+    )
+
+
+def _require_positive(found: NDArray, middles: NDArray, numbers: NDArray, remedy: str) -> None:
+    """Refuse cells of which a Jacobian determinant where they are integrated is not positive.
+
+    ``found`` (n,): smallest over largest; ``middles`` (n, 3), m, in the blade's frame.
     """
-    cells = np.arange(len(middles)) + 1
-    # the bounds of a flat cell would take milliseconds
-    solid = np.abs(gmsh.model.mesh.getElementQualities(cells, "gamma")) > FLAT
-    ratio = jacobian_ratios() if solid.all() else solid.astype(float)
-    if not np.all(ratio > 0):
-        worst = int(ratio.argmin())
+    if not np.all(found > 0):
+        worst = int(found.argmin())
         raise MeshError(
-            f"{np.sum(~(ratio > 0))} of {len(cells)} cells are inside out or flat; the worst "
-            f"(Jacobian ratio {ratio[worst]:.2f}) is at {_place(middles[worst])} mm in the blade's "
-            f"frame, of cell {numbers[worst]} of the file: repair the mesh"
+            f"{np.sum(~(found > 0))} of {len(found)} cells are inside out or flat; the worst "
+            f"(Jacobian ratio {found[worst]:.2f}, where it is integrated) is at "
+            f"{_place(middles[worst])} mm in the blade's frame, of cell {numbers[worst]} of the "
+            f"file: {remedy}"
         )
 
 

@@ -9,7 +9,7 @@ import gmsh
 import numpy as np
 from numpy.typing import NDArray
 
-from geometry.blade import MOST_THICKNESS, Blade, Cad, MeshFile, Sections, SectionTable
+from geometry.blade import MOST_THICKNESS, Blade, Cad, MeshGeometry, Sections, SectionTable
 from geometry.cad import import_cad
 from geometry.facets import normals
 from geometry.file_mesh import FileMesh
@@ -57,6 +57,7 @@ class MeshSummary:
     mass: float  # kg
     thickness: float  # m, mean: twice the volume over the area of the sides
     edge: float  # m, mean edge of the elements
+    size: float | None = None  # mm, element_size_mm; None for a mesh file
 
     @property
     def volume_error(self) -> float:
@@ -83,7 +84,10 @@ class MeshSummary:
     def blade_line(self) -> str:
         """The meshed solid, in the units of a drawing, and whether the elements are enough."""
         enough = self.through >= ENOUGH
-        finer = f"take mesh.element_size_mm below {1e3 * self.thickness / ENOUGH:.2g}"
+        if self.size:
+            finer = f"take mesh.element_size_mm below {self.size * self.through / ENOUGH:.2g}"
+        else:
+            finer = f"export elements with edges below {1e3 * self.thickness / ENOUGH:.2g} mm"
         return (
             f"span {1e3 * self.span:.1f} mm, tip radius {1e3 * self.tip_radius:.1f} mm, mass "
             f"{1e3 * self.mass:.4g} g; {self.cells} ten-node tetrahedra, {self.nodes} nodes, "
@@ -119,7 +123,7 @@ def build_mesh(
         with about(blade.file):
             _check_tip(blade, *facets_of(shape.tip))
         _warn_of_high_root(shape)
-        _show_materials(shape, blade)
+        _show_physics(shape, blade)
         gmsh.model.addPhysicalGroup(3, [shape.solid], name="blade")
         gmsh.model.addPhysicalGroup(2, shape.root, name="root")
         gmsh.model.addPhysicalGroup(2, shape.tip, name="tip")
@@ -180,7 +184,7 @@ def _shape(blade: Blade, path: str | Path | None) -> Shape:
             return loft_table(sections)
         case Cad() as cad:
             return import_cad(cad, path)
-        case MeshFile() as mesh_file:
+        case MeshGeometry() as mesh_file:
             return import_mesh(mesh_file, path)
 
 
@@ -284,9 +288,11 @@ def _warn_of_high_root(shape: Shape) -> None:
         )
 
 
-def _show_materials(shape: Shape, blade: Blade) -> None:
-    """Print the materials of a mesh file; warn where the material of the blade is another."""
-    for material in shape.materials:
+def _show_physics(shape: Shape, blade: Blade) -> None:
+    """Print what a mesh file has besides its mesh; warn where its material is another."""
+    if left_out := shape.physics.described:
+        print(f"{blade.file}: read for its mesh and materials, without {left_out}")
+    for material in shape.physics.materials:
         shown = f"{blade.file}: {material.described(blade.source.unit)}"
         print(shown)
         if others := material.differs(blade.material, blade.source.unit):
@@ -317,6 +323,7 @@ def _summary(mesh: FileMesh, cad_volume: float | None, blade: Blade) -> MeshSumm
         mass=float(blade.material.density_kg_m3 * mesh_volume),
         thickness=float(2 * mesh_volume / (surface_area - root_area - tip_area)),
         edge=float(edge_lengths(mesh.points, mesh.cells).mean()),
+        size=blade.mesh and blade.mesh.element_size_mm,
     )
 
 

@@ -39,7 +39,8 @@ def root_and_tip(
             tolerance = ON_RADIUS * face.radius_mm * 1e-3
             chosen[key] = within_radius(key, face.radius_mm, corners, tolerance)
         else:
-            chosen[key] = _of_group(key, face.group, mesh, surface)
+            groups = [_of_group(key, name, mesh, surface) for name in face.groups]
+            chosen[key] = np.any(groups, axis=0)
     root, tip = chosen.values()
     if np.any(root & tip):
         raise MeshError(f"root and tip share {np.sum(root & tip)} facets")

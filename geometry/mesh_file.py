@@ -1,7 +1,9 @@
 """Readers of mesh files of other programs."""
 
 import re
+from collections import Counter
 from collections.abc import Callable
+from itertools import compress
 from pathlib import Path
 
 import meshio
@@ -12,15 +14,17 @@ from numpy.typing import NDArray
 from geometry.abaqus import read_deck
 from geometry.ansys import EXPORT, read_archive
 from geometry.file_mesh import FileMesh, Solids, as_tetrahedra, require_all
+from geometry.file_physics import Physics
 from geometry.nastran import read_bulk
 from geometry.project import MeshError, UserError, require_file
 from geometry.split import NODES, upright
 
 SECTION = re.compile(rb"^\$(Nodes|Elements)[ \r]*\n(.*?)^\$End\1", re.MULTILINE | re.DOTALL)
+NAMES = re.compile(rb'^[ \t]*(\d) +(\d+) +"([^"]*)"', re.MULTILINE)  # dimension, number, name
 ASCII = re.compile(rb"^\$MeshFormat\s+\S+\s+0\s", re.MULTILINE)
 ANEW = {
     ".msh": "save it as MSH 4.1 or 2.2, its groups alone (Mesh.SaveAll 0)",
-    ".vtu": "write it as one piece of VTK's format 1.0",
+    ".vtu": "write it as one piece of VTK's format 1.0, without polyhedra",
     ".cdb": EXPORT,
 }
 SERENDIPITY = {"wedge18": "wedge15", "pyramid14": "pyramid13"}  # in Gmsh's order with meshio 5.3
@@ -36,6 +40,8 @@ def _read_msh(path: Path) -> FileMesh:
     sections = SECTION.findall(data)
     if sorted(name for name, _ in sections) != [b"Elements", b"Nodes"]:
         raise MeshError(f"needs one $Nodes and one $Elements, both with their end: {ANEW['.msh']}")
+    if b"$PartitionedEntities" in data:
+        raise MeshError("is partitioned: save it whole (in gmsh: Mesh, Unpartition)")
     mesh = meshio.gmsh.read(path)
     for block in mesh.cells:
         if block.type in SERENDIPITY:
@@ -43,6 +49,8 @@ def _read_msh(path: Path) -> FileMesh:
     head, *lines = dict(sections)[b"Elements"].strip().splitlines()
     if ASCII.search(data):
         _require_all(mesh, len(lines) if len(head.split()) == 1 else int(head.split()[1]))
+    mesh.cell_sets = {}
+    _named(mesh, data.partition(b"$EndPhysicalNames")[0])
     return _from_meshio(mesh)
 
 
@@ -101,23 +109,47 @@ def read_mesh_file(path: str | Path) -> FileMesh:
 def _from_meshio(mesh: meshio.Mesh) -> FileMesh:
     for block in mesh.cells:
         if not np.isin(block.data, np.arange(len(mesh.points))).all():
-            raise MeshError(f"a {block.type} names a node that does not exist: is it cut short?")
+            raise MeshError(
+                f"a {block.type} names a node that does not exist: is it cut short, or counted "
+                "from another number?"
+            )
     blocks = [block for block in mesh.cells if block.dim == 3]
-    numbers = np.split(np.arange(sum(map(len, blocks))) + 1, np.cumsum([*map(len, blocks)])[:-1])
+    groups = _cell_groups(mesh)
+    ends = np.cumsum([*map(len, blocks)])
     return as_tetrahedra(
         mesh.points,
         np.arange(len(mesh.points)) + 1,
         [
-            Solids(block.type, _nodes(block, mesh.points), cell_numbers)
-            for block, cell_numbers in zip(blocks, numbers, strict=True)
+            Solids(block.type, _nodes(block, mesh.points), np.arange(end - len(block), end) + 1)
+            for block, end in zip(blocks, ends, strict=True)
         ],
         node_groups={
             group: np.flatnonzero(mask)
             for name, data in mesh.point_data.items()
             for group, mask in _values(name, data).items()
         },
-        faces={name: _faces(mesh, members) for name, members in _cell_groups(mesh).items()},
+        faces={name: _faces(mesh, members) for name, members in groups.items()},
+        physics=_physics(mesh, groups),
     )
+
+
+def _physics(mesh: meshio.Mesh, groups: dict[str, list[NDArray]]) -> Physics:
+    """Parts of the solid cells, which may be of other materials, and arrays that are no groups."""
+    solid = [block.dim == 3 for block in mesh.cells]
+    cells = sum(len(block) for block in mesh.cells if block.dim == 3)
+    parts = {
+        f"cells of the part {name}": sum(map(len, compress(members, solid)))
+        for name, members in groups.items()
+        if not name.startswith("gmsh:")
+    }
+    data = mesh.point_data | {key: np.concatenate(value) for key, value in mesh.cell_data.items()}
+    arrays = {
+        f"array {name}": 1
+        for name, values in data.items()
+        if not name.startswith("gmsh:") and not _values(name, values)
+    }
+    parts = {name: count for name, count in parts.items() if 0 < count < cells}
+    return Physics(left_out=Counter(parts | arrays))
 
 
 def _nodes(block: meshio.CellBlock, points: NDArray) -> NDArray:
@@ -149,11 +181,22 @@ def _cell_groups(mesh: meshio.Mesh) -> dict[str, list[NDArray]]:
         lengths = np.cumsum([len(block) for block in data])[:-1]
         for group, mask in _values(name, np.concatenate(data)).items():
             groups[group] = [np.flatnonzero(part) for part in np.split(mask, lengths)]
-    if physical := mesh.cell_data.get("gmsh:physical"):
-        for name, (tag, dim) in mesh.field_data.items():
-            pairs = zip(mesh.cells, physical, strict=True)
-            groups.setdefault(name, [np.flatnonzero((n == tag) & (b.dim == dim)) for b, n in pairs])
     return groups
+
+
+def _named(mesh: meshio.Mesh, data: bytes) -> None:
+    """Give ``mesh`` the physical groups of its file, whose ``data`` name them, as sets of cells.
+
+    meshio keeps one of several dimensions with the same name.
+    """
+    physical = mesh.cell_data.get("gmsh:physical", [np.zeros(len(b), int) for b in mesh.cells])
+    for dim, tag, name in NAMES.findall(data):
+        members = [
+            np.flatnonzero((tags == int(tag)) & (block.dim == int(dim)))
+            for block, tags in zip(mesh.cells, physical, strict=True)
+        ]
+        others = mesh.cell_sets.get(name := name.decode(), [np.empty(0, int)] * len(members))
+        mesh.cell_sets[name] = list(map(np.union1d, others, members))
 
 
 def _values(name: str, data: NDArray) -> dict[str, NDArray]:

@@ -7,13 +7,15 @@ elements in large fields, and takes a deck without BEGIN BULK for an empty one.
 import re
 from pathlib import Path
 
-from geometry.abaqus import INCLUDES, Card, mesh_of
+from geometry.abaqus import INCLUDES, mesh_of
+from geometry.cards import Card
 from geometry.file_mesh import FileMesh
-from geometry.project import MeshError, read_text
+from geometry.project import MeshError, number, read_text
 
 SOLIDS = {"CTETRA": (4, 10), "CPYRAM": (5, 13), "CPENTA": (6, 15), "CHEXA": (8, 20)}  # nodes
 UPRIGHT = {15: 6, 20: 8}  # their first middle node; those of upright edges stand before the upper
 SOLID = re.compile(r"C(TET|HEX|PEN|PYR)")  # others of this kind are refused
+MATERIAL = re.compile(r"MAT\d+|PSOLID")
 SHELLS = {  # by their corners
     **dict.fromkeys(("CTRIA3", "CTRIA6", "CTRIAR"), "CTRIA3"),
     **dict.fromkeys(("CQUAD4", "CQUAD8", "CQUADR"), "CQUAD4"),
@@ -31,29 +33,57 @@ def read_bulk(path: Path) -> FileMesh:
         When it includes other files or has no end, nodes stand twice, are incomplete or in other
         coordinate systems, or elements lack nodes.
     """
-    return mesh_of([card for given in _cards(path) if (card := _translated(*given))])
+    cards = [card for given in _cards(path) for card in _translated(*given)]
+    return mesh_of(cards, cards)
 
 
-def _translated(line: int, keyword: str, fields: list[str]) -> Card | None:
-    """The equivalent card of Abaqus; none for cards that are not read."""
-    number, second, *others = fields
+def _translated(line: int, keyword: str, fields: list[str]) -> list[Card]:
+    """The equivalent cards of Abaqus; cards that are not read keep their keyword."""
+    first, second, *others = fields
     if keyword in ("GRID", "GRDSET") and second not in ("", "0"):
         raise MeshError(
             f"gives nodes in a coordinate system (CP {second}): export them in the basic one",
             line=line,
         )
     if keyword == "GRID":
-        row = [number, *(EXPONENT.sub("E", x) for x in others[:3])]
-        return Card("NODE", {}, line, [(line, row)])
+        return [Card("NODE", {}, line, [(line, [first, *map(_decimal, others[:3])])])]
+    if MATERIAL.fullmatch(keyword):
+        return _material(line, keyword, fields)
     nodes = [node for node in others if node]
+    its_property = {"ELSET": f"nastran:ref={second}"}
     if shell := SHELLS.get(keyword):
-        options = {"TYPE": shell, "ELSET": f"nastran:ref={second}"}
-        return Card("ELEMENT", options, line, [(line, [number, *nodes[: int(shell[-1])]])])
+        row = line, [first, *nodes[: int(shell[-1])]]
+        return [Card("ELEMENT", {"TYPE": shell} | its_property, line, [row])]
     if not SOLID.match(keyword):
-        return None
-    first, most = SOLIDS.get(keyword, ("", ""))
-    kind = f"{keyword}{first if len(nodes) == first else most}"
-    return Card("ELEMENT", {"TYPE": kind}, line, [(line, [number, *_as_abaqus(nodes)])])
+        return [Card(keyword, {}, line)]
+    fewest, most = SOLIDS.get(keyword, ("", ""))
+    kind = f"{keyword}{fewest if len(nodes) == fewest else most}"
+    row = line, [first, *_as_abaqus(nodes)]
+    return [Card("ELEMENT", {"TYPE": kind} | its_property, line, [row])]
+
+
+def _material(line: int, keyword: str, fields: list[str]) -> list[Card]:
+    """A material, or the section that names it; of MAT1 nu may stand for G, or G for nu."""
+    name, E, G, nu, density, *_ = map(_decimal, [*fields, *[""] * 5])
+    if keyword == "PSOLID":
+        options, system = {"ELSET": f"nastran:ref={name}", "MATERIAL": E}, G
+        turned = {} if system in ("", "0", "-1") else {"ORIENTATION": system}  # -1: the element's
+        return [Card("SOLID SECTION", options | turned, line)]
+    material = Card("MATERIAL", {"NAME": name}, line)
+    if keyword != "MAT1":
+        return [material, Card("ELASTIC", {"TYPE": keyword}, line)]
+    if E and G and not nu:
+        nu = str(number(E) / (2 * number(G)) - 1)
+    return [
+        material,
+        Card("ELASTIC", {}, line, [(line, [E, nu])]),
+        Card("DENSITY", {}, line, [(line, [density])]),
+    ]
+
+
+def _decimal(text: str) -> str:
+    """A number with the letter of its exponent."""
+    return EXPONENT.sub("E", text)
 
 
 def _as_abaqus(nodes: list[str]) -> list[str]:
@@ -69,18 +99,21 @@ def _cards(path: Path) -> list[tuple[int, str, list[str]]]:
     """Line, keyword and fields of each card to the end of the deck, other sections included."""
     cards: list[tuple[int, str, list[str]]] = []
     large = False
-    for number, given in enumerate(read_text(path, most=None, errors="replace").splitlines(), 1):
+    for place, given in enumerate(read_text(path, most=None, errors="replace").splitlines(), 1):
         line = given.partition("$")[0].expandtabs(8).upper()
         large = "*" in line[:8] or (large and not line[:8].strip())  # blanks go on as before
         keyword, *fields = _fields(line, *((4, 16) if large else (8, 8)))
         if line.lstrip().startswith(END):
             return cards
+        if line.startswith("BEGIN BULK"):
+            cards.clear()  # those before control the run
+            continue
         if line.lstrip().startswith("INCLUDE"):
-            raise MeshError(INCLUDES.format("INCLUDE"), line=number)
+            raise MeshError(INCLUDES.format("INCLUDE"), line=place)
         if cards and keyword[:1] in ("", "+", "*"):  # continues the card
             cards[-1][2].extend(fields)
         else:
-            cards.append((number, keyword.rstrip("*"), fields))
+            cards.append((place, keyword.rstrip("*"), fields))
     raise MeshError("has no ENDDATA: is the file cut short? If it is whole, end it with ENDDATA")
 
 

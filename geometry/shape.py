@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -10,7 +10,7 @@ import gmsh
 import numpy as np
 from numpy.typing import NDArray
 
-from geometry.file_mesh import FileMaterial
+from geometry.file_physics import Physics
 from geometry.project import MeshError, ProvenanceError, anew, intact
 
 SAMPLES = 200  # points on each curve
@@ -26,7 +26,7 @@ class Shape:
     solid: int
     root: tuple[int, ...]
     tip: tuple[int, ...]
-    materials: tuple[FileMaterial, ...] = ()  # that a mesh file names
+    physics: Physics = field(default_factory=Physics)  # that a mesh file has besides
 
 
 @contextmanager

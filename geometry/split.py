@@ -4,7 +4,8 @@ A quadrilateral is cut along the diagonal from its node that stands first in the
 cells on both sides of it agree (Dompierre and others 1999, How to subdivide pyramids, prisms and
 hexahedra into tetrahedra). A cell is the cone from its first node over the triangles of the faces
 that do not have that node: a pyramid gives two tetrahedra, a wedge three, a brick six, around the
-diagonal from that node.
+diagonal from that node. A corner of nearly 180 degrees is flat in a triangle that is cut off there,
+and halved by a diagonal from it: such nodes are put first.
 
 Middle nodes of the diagonals come from the cell's own map, which in the middle of a quadrilateral
 and of a brick is that of eight and of twenty nodes: a sum over corners and middles of edges, of
@@ -79,6 +80,7 @@ NODES = {
     20: ("hexahedron", True),
     27: ("hexahedron", True),
 }
+FLAT = 135.0  # degrees, of a corner that is to be cut from
 OPPOSITE = np.array([6, 7, 4, 5, 2, 3, 0, 1])  # corners of a brick
 TURNED = [3, 4, 5, 0, 1, 2, 9, 10, 11, 6, 7, 8, 12, 13, 14]  # a wedge seen from its other end
 
@@ -175,6 +177,22 @@ class _Edges:
         order = np.argsort(stored)
         place = np.searchsorted(stored, asked, sorter=order)
         return self._middles[order[place]].reshape(ends.shape[:-1])
+
+
+def flat_corners_first(points: NDArray, blocks: Sequence[Block]) -> NDArray[np.int64]:
+    """Order (n,) of the ``points`` (n, 3), by the largest angle of a quadrilateral at each.
+
+    Nodes whose angles are all below ``FLAT`` stay behind the others, in the file's order.
+    """
+    quads = np.vstack([np.empty((0, 4), dtype=int), *(b.faces(4).reshape(-1, 4) for b in blocks)])
+    corner = points[quads]
+    sides = [np.roll(corner, turn, axis=1) - corner for turn in (-1, 1)]
+    lengths = [np.linalg.norm(side, axis=2) for side in sides]
+    with np.errstate(divide="ignore", invalid="ignore"):  # of corners that coincide
+        cosine = (sides[0] * sides[1]).sum(axis=2) / (lengths[0] * lengths[1])
+    smallest = np.zeros(len(points))
+    np.fmin.at(smallest, quads, np.where(cosine < np.cos(np.radians(FLAT)), cosine, 0.0))
+    return np.argsort(smallest, kind="stable")
 
 
 def upright(points: NDArray, nodes: NDArray) -> NDArray:

@@ -6,6 +6,7 @@ a millimetre thick, and their loft would intersect itself: each section is there
 chord close to both ends.
 """
 
+import warnings
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
@@ -18,9 +19,10 @@ from scipy.spatial.distance import pdist, squareform
 from geometry.blade import SectionTable
 from geometry.frame import to_blade
 from geometry.outline import check_line, check_outline, enclosed
-from geometry.project import MeshError, csv_rows, numbers, shown
+from geometry.project import MeshError, MeshWarning, csv_rows, numbers, shown
 
 HEADER = ["section", "x", "y", "z"]
+THINNEST = 5e-3  # of the chord; tips of fans have 2e-2
 FEWEST_POINTS = 16  # of a section
 STATIONS = 17  # of a side between its cuts; twice as many change the volume by 1e-4
 APART = 1e-4  # m, least radial distance between two sections
@@ -40,6 +42,13 @@ class CutSection:
     def edges(self) -> NDArray[np.float64]:
         """Thickness (2,), m, of the blunt leading and trailing edge."""
         return np.linalg.norm((self.pressure - self.suction)[[0, -1]], axis=1)
+
+    @property
+    def apart(self) -> NDArray[np.float64]:
+        """Largest difference (2,), m, between both sides at one z: of x, and of the radius."""
+        (x, y, z), (other_x, other_y, other_z) = self.suction.T, self.pressure.T
+        pairs = (x, other_x), (np.hypot(x, y), np.hypot(other_x, other_y))
+        return np.array([abs(np.interp(z, other_z, b) - a).max() for a, b in pairs])
 
 
 def read_sections(table: SectionTable, path: str | Path) -> list[CutSection]:
@@ -62,6 +71,7 @@ def read_sections(table: SectionTable, path: str | Path) -> list[CutSection]:
     _check_crossing(cut)
     edges = [(s.suction[[0, -1]] + s.pressure[[0, -1]]) / 2 for s in cut]
     check_line([s.name for s in cut], np.array(edges), np.array([_radius(s) for s in cut]))
+    _warn_of_polar(table, cut)
     return cut
 
 
@@ -77,6 +87,21 @@ def describe_cut(sections: list[CutSection]) -> str:
         f"the cut edges are {low:.2g} to {high:.2g} mm thick; the cut takes up to {removed:.2g} % "
         f"of a section's area, which raises f1 by some half of that"
     )
+
+
+def _warn_of_polar(table: SectionTable, sections: list[CutSection]) -> None:
+    """Warn where `radial` is the same on both sides of each section, nearer than the radius.
+
+    So it is where the columns are a radius, an angle and z, and where planes cut the sections.
+    """
+    radial, radius = np.max([section.apart for section in sections], axis=0)
+    if radial <= radius:
+        warnings.warn(
+            f"{table.file}: `radial` is the same on both sides of each section: right where planes "
+            "cut them; if the columns are a radius, an angle and z, give x, y, z",
+            MeshWarning,
+            stacklevel=5,
+        )
 
 
 def _radius(section: CutSection) -> float:
@@ -133,6 +158,12 @@ def _cut(name: str, outline: NDArray, share: float) -> CutSection:
     along = suction[-1] - suction[0]
     ahead = np.cross([1.0, 0, 0], along) * -1.0
     thickness = (cut.pressure - cut.suction) @ ahead / np.linalg.norm(ahead)
+    if thickness.max() < THINNEST * np.linalg.norm(along):
+        raise MeshError(
+            f"it is {100 * thickness.max() / np.linalg.norm(along):.2g} % of its chord thick "
+            f"(allowed from {100 * THINNEST:g} %): are its columns x, y, z, all in one unit?",
+            key=name,
+        )
     if thickness.min() <= 0:
         raise MeshError(
             f"its sides cross at {100 * stations[thickness.argmin()]:.0f} % of the chord; give "

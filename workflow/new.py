@@ -6,6 +6,7 @@
 """
 
 import json
+import re
 import shutil
 import sys
 from pathlib import Path
@@ -14,7 +15,7 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from geometry.blade import RPM, Blade
+from geometry.blade import RPM, Blade, Interface
 from geometry.given import read_blade
 from geometry.project import (
     SettingsError,
@@ -40,6 +41,20 @@ SOURCES = {  # template of a blade by the suffix of its file
     "": "sections",
 }
 SHOWN = SOURCES.keys() - {".brep", ".csv", ""}  # their contents
+PATCHES = Interface().patches
+NOT_READ = {  # values of a template of what a file does not say
+    "unit": "mm",
+    "frame": "downstream: z, radial: x, rotation: right-handed",
+    "root": "radius_mm: 100.0",
+    "tip": "radius_mm: 200.0",
+    "size": "3.0",
+    "material": "young_modulus_GPa: 113.8, poisson_ratio: 0.342, density_kg_m3: 4430",
+    "whence": "<-- here Ti-6Al-4V",
+    "mark": " <--",
+    "patches": "",
+    "looked": "",
+}
+PLAIN = re.compile(r'^"(-?[xyz]|[a-z]+-handed)"$')  # needs no quotes
 SHARES = (0.4, 0.95)  # of the blade's highest speed: of the sweep
 
 
@@ -85,7 +100,43 @@ def _blade(path: Path, file: str | None, folder: Path) -> str:
         )
     if source and source.resolve().parent != path.parent.resolve():
         shutil.copy(source, path.parent)
-    return _filled(f"blade-{SOURCES[suffix]}", name=path.stem, file=source and source.name)
+    values = NOT_READ
+    if suffix in SHOWN and source:
+        values = NOT_READ | _looked_at(source, path.stem)
+    return _filled(
+        f"blade-{SOURCES[suffix]}", name=path.stem, file=source and source.name, **values
+    )
+
+
+def _looked_at(source: Path, name: str) -> dict[str, str]:
+    """What a mesh or a STEP file says of a blade, drawn; says why where that is nothing."""
+    from workflow.first_look import draw, look  # slow imports, which other kinds do without
+
+    try:
+        with about(source):
+            found = look(source, SOURCES[source.suffix.lower()])
+    except UserError as error:
+        print(f"not read: {error}")
+        return {}
+    picture = Path("results", name, "look.png")
+    draw(found, picture)
+    values = {key: _inline(found.source[key]) for key in ("frame", "root", "tip")}
+    if found.patches != PATCHES:
+        values["patches"] = f"interface: {{patches: {found.patches}}} # the tip's mesh allows\n"
+    if found.material:
+        values |= {"material": _inline(found.material), "whence": "as in the file"}
+    return values | {
+        "unit": found.source["unit"],
+        "size": f"{found.size:.2g}",
+        "mark": "",
+        "looked": f"# As read from the file, and drawn in {picture}; {found.footprint}\n",
+    }
+
+
+def _inline(values: dict[str, Any]) -> str:
+    """Values of a mapping between the braces of YAML."""
+    texts = ((key, json.dumps(value)) for key, value in values.items())
+    return ", ".join(f"{key}: {PLAIN.sub(r'\1', text)}" for key, text in texts)
 
 
 def _scene(name: str, blade: str) -> str:

@@ -34,6 +34,8 @@ DEPTHS: Columns = {f"depth_{unit}": ("depth_m", metres) for unit, metres in LENG
 SHIFTS: Columns = {f"shift_{unit}": ("shift_um", 1e6 * metres) for unit, metres in LENGTHS.items()}
 Z: Columns = {"z_mm": ("z_mm", 1.0)}
 RADII: Columns = {"r_mm": ("r_mm", 1.0)}
+RADIANS, FEW = 6.3, 2  # last of more than so many angles, where they are not degrees
+WIDEST, CHANGE = 180.0, 0.05  # degrees, the widest step over a change of so much of the depths
 POINTS = 8192  # angles around the casing at which a function is sampled
 LARGEST_DEPTH = 0.1  # m: a larger one is of another unit
 
@@ -220,7 +222,10 @@ class Table(Points):
     def _one_round(self) -> None:
         (first, *_, last), depth = self.theta_deg, self.depth_m
         if (first, last) == (0, 360) and depth[0] != depth[-1]:
-            raise ValueError(f"depths at 0 and 360 deg differ: {depth[0]:g} and {depth[-1]:g} m")
+            raise ValueError(
+                f"depths at 0 and 360 deg, which are one place, differ: {depth[0]:g} and "
+                f"{depth[-1]:g} m: leave the row at 360 out, or give both their mean"
+            )
         if (deepest := max(map(abs, depth))) > LARGEST_DEPTH:
             raise SettingsError(
                 f"allowed up to {LARGEST_DEPTH:g} m: is the column in mm or um? then name it "
@@ -228,6 +233,23 @@ class Table(Points):
                 key="depth_m",
                 value=deepest,
                 allowed={"le": LARGEST_DEPTH},
+            )
+        if len(depth) > FEW and last <= RADIANS:
+            raise SettingsError(
+                f"the last of {len(depth)} angles: are they radians? A bump as narrow as that in "
+                "degrees needs rows at 0 and 360 besides",
+                key="theta_deg",
+                value=last,
+            )
+        ends = np.append(self.theta_deg, first + 360.0)
+        steps, rises = np.diff(ends), np.diff(np.append(depth, depth[0]))
+        widest = int(np.where(abs(rises) > CHANGE * np.ptp(depth), steps, 0.0).argmax())
+        if steps[widest] > WIDEST:
+            raise SettingsError(
+                f"no depth between {ends[widest]:g} and {ends[widest + 1]:g} deg, where it changes "
+                f"by {abs(rises[widest]):g} m: give angles all around, 0 to 360, at most "
+                f"{WIDEST:g} apart",
+                key="theta_deg",
             )
 
     def inward(self, theta: NDArray[np.float64]) -> NDArray[np.float64]:

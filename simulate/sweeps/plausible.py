@@ -22,7 +22,6 @@ WIDE = 0.02  # of the span: tip gaps are 1e-4 to 1e-2
 MANY_GAPS = 20.0  # of a casing amplitude
 STEEP = 0.2  # slope of the tip, 11 deg
 SOFT = 1e6  # Pa: rubber; stiffer than 1e13 is refused
-IN_RADIANS = 2 * np.pi + 1e-2
 
 type Implausible = tuple[bool, str, str]  # whether a value is doubtful, its key, and the line of it
 
@@ -94,7 +93,7 @@ def _of_gap(widest: float, span: float) -> list[Implausible]:
 
 def _of_casing(casing: Casing, gap: float, rounds: float) -> list[Implausible]:
     gaps = [harmonic.amplitude_gaps or 0.0 for harmonic in casing.harmonics or []]
-    end, ramp = casing.table.theta_deg[-1] if casing.table else inf, casing.ramp_rounds or 0.0
+    ramp = casing.ramp_rounds or 0.0
     return [
         *(
             (
@@ -104,11 +103,6 @@ def _of_casing(casing: Casing, gap: float, rounds: float) -> list[Implausible]:
                 f"{1e6 * gap:.3g} um; 150 % of the gap would be 1.5",
             )
             for amplitude in gaps
-        ),
-        (
-            end <= IN_RADIANS,
-            "casing.table",
-            f"casing.table: theta_deg ends at {end:g}: degrees, not radians?",
         ),
         (
             ramp > rounds,

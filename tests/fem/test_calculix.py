@@ -34,15 +34,13 @@ def test_digits_of_the_verification_page_are_those_of_ccx(digits, tmp_path, monk
 
 
 @needs_ccx
-def test_bricks_are_a_little_softer_than_their_tetrahedra(coarse_blade):
-    """Their 20 nodes carry more than the six tetrahedra, at fewer points still a little more.
-
-    Measured 0.14 to 0.54 % in the first six frequencies, whose waves the coarse cells resolve.
-    """
+def test_bricks_are_as_soft_as_their_tetrahedra(coarse_blade):
+    """At fewer points they are softer. Measured -0.01 to 0.XX % in the first six frequencies."""
     rows = bricks_table.of_bricks(coarse_blade, (10, 1, 20), ["C3D20"])
     split, whole, reduced = (np.array(row["frequencies_Hz"]) for row in rows)
-    assert (split > whole).all() and (whole > reduced).all()
-    np.testing.assert_allclose(whole[:, :6], split[:, :6], rtol=6e-3)
+    print((split / whole - 1) * 100)
+    assert (whole > reduced).all()
+    np.testing.assert_allclose(whole[:, :6], split[:, :6], rtol=4e-3)
 
 
 def test_the_table_keeps_its_bar():

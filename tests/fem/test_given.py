@@ -212,7 +212,7 @@ def other(fom, hub):
             {},
             "K0.npz: forces away from the clamp .* frame",
         ),
-        "hysteretic": ({"K0": K * (1 + 0.01j)}, {}, "K0.npz: holds values .* finite real numbers"),
+        "hysteretic": ({"K0": K * (1 + 0.01j)}, {}, "K0.npz: is complex"),
         "without mass": ({"M": loose}, {}, "M.npz: 0 on the diagonal of row 31; must be above 0"),
         "hub": ({}, {"hub_radius_m": 0.04}, "K0.npz: speed of waves .* hub_radius_m"),
         "hub in mm": ({}, {"hub_radius_m": 1e3 * hub}, "nodes.csv: span: -42"),

@@ -7,8 +7,10 @@ from brick_files import FORMATS, to_write
 from bricks import ENDS, Bricks
 
 from fem.assemble import assemble
+from geometry.import_mesh import eased
 from geometry.mesh import build_mesh
 from geometry.project import MeshWarning
+from geometry.shape import session
 from geometry.split import Block, split
 from rom.modes import ShiftInvert
 
@@ -134,7 +136,9 @@ def split_first(request, coarse_blade, bricks, tmp_path_factory):
     ten = split(bricks.points, [Block(cells, np.arange(len(cells)))])
     groups = {end: ten.with_new(bricks.on(i, cells)) for end, i in ENDS.items()}
     path = tmp_path_factory.mktemp("split") / "blade.inp"
-    exports.write_inp(path, ten.points, ten.cells, groups)
+    with session("test"):
+        points = eased(ten.points, ten.cells, ten.parents)
+    exports.write_inp(path, points, ten.cells, groups)
     return request.param, read_back(exports.as_meshed(coarse_blade, path.name), path)[0]
 
 

@@ -25,7 +25,7 @@ def ranges(text):
 
 
 REFERENCE = (
-    "*Node\n1, 0., 0., 0.\n*Nset, nset=RP, internal\n1,\n*Element, type=MASS, elset=m\n1, 1\n"
+    "*Node\n1, 0., 0., 0.\n*Nset, nset=RP, internal\n1,\n*Element, type=SPRING1, elset=m\n1, 1\n"
 )
 REFERENCE += "*Elset, elset=m2, generate\n1, 1, 1\n"
 

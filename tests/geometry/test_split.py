@@ -152,7 +152,8 @@ def test_a_blade_of_each_format_is_the_same(name, kind, second_order, bricks, bu
         with pytest.warns(MeshWarning, match="first order"):
             summary, found = build(*args, **keys)
     expected = split(1e-3 * bricks.points, [Block(cells, np.arange(len(cells)))])
-    assert summary.volume == pytest.approx(measured(expected)[0], rel=1e-6)
+    # diagonals of curved faces lie a little other in them
+    assert summary.volume == pytest.approx(measured(expected)[0], rel=1e-5)
     facets = len(faces["tip"]) * (2 if kind == "hexahedron" else 1)
     assert [len(found.facets[of]) for of in ENDS] == [facets, facets]
     told = f"split into {len(expected.cells)} ten-node tetrahedra on {summary.nodes} nodes"

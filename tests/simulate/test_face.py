@@ -162,7 +162,7 @@ def test_casings_of_a_function_a_table_and_harmonics_are_equal(tmp_path):
         ("theta_deg,depth_mm\n0,1\n90,2,3\n", "found 3 cells (line 3)"),
         ("theta_deg,depth_mm\n90,1\n0,2\n", "should ascend, from 0"),
         ("theta_deg,depth_mm\n0,1\n400,2\n", "should ascend, from 0"),
-        ("theta_deg,depth_mm\n0,1\n360,2\n", "depths at 0 and 360 deg differ"),
+        ("theta_deg,depth_mm\n0,1\n360,2\n", "which are one place, differ"),
         (None, "cannot be read"),
     ],
 )
@@ -175,6 +175,6 @@ def test_tables_that_are_refused(tmp_path, text, told):
 
 
 def test_a_casing_is_given_in_one_form():
-    table = {"theta_deg": [0, 90], "depth_m": [0, 1e-5]}
+    table = {"theta_deg": [0, 180], "depth_m": [0, 1e-5]}
     error = refused(SettingsError, scene().but, casing={"table": table})
     assert (error.key, error.allowed) == ("casing", ("harmonics", "table"))

@@ -15,7 +15,6 @@ from simulate.sweeps.design_runs import Engine
 from simulate.sweeps.plausible import SceneWarning, doubts
 
 EXACT = {"integrator": {"scheme": "piecewise-exact", "steps_per_round": 640}}
-IN_RADIANS = {"theta_deg": [0.0, 3.14, 6.28], "depth_m": [0.0, 5e-5, 0.0]}
 
 
 @pytest.mark.parametrize(
@@ -36,11 +35,6 @@ IN_RADIANS = {"theta_deg": [0.0, 3.14, 6.28], "depth_m": [0.0, 5e-5, 0.0]}
             {"casing__harmonics": [{"order": 2, "amplitude_gaps": 150.0}]},
             "casing",
             ["amplitude_gaps: 150", "150 % of the gap would be 1.5"],
-        ),
-        (
-            {"casing": {"ramp_rounds": 0.1, "table": IN_RADIANS}},
-            "casing.table",
-            ["ends at 6.28: degrees, not radians?"],
         ),
         ({"casing__ramp_rounds": 3}, "casing.ramp_rounds", ["3: longer than the 2 revolutions"]),
         ({"liner__footprint_m": 0.2}, "liner.footprint_m", ["longer than the chord", "mm or cm?"]),

@@ -1,6 +1,7 @@
 import logging
 import os
 import re
+import sys
 from functools import cache
 from itertools import chain
 from pathlib import Path
@@ -9,11 +10,20 @@ from snakemake.exceptions import WorkflowError
 
 from geometry.blade import SOURCES
 from geometry.given import GIVEN, GivenMatrices, GivenModel, read_blade
-from geometry.project import SettingsError, fingerprint, hashes, printable, sources_of, yaml_file
+from geometry.project import (
+    WARNING,
+    SettingsError,
+    fingerprint,
+    hashes,
+    printable,
+    sources_of,
+    yaml_file,
+)
 from rom.speeds import basis_speeds, check_speeds
 from simulate.scene.design import Design, refuse
 from simulate.scene import Scene, fault_of_blade
 from simulate.scene.casing import CASING
+from workflow.at_work import ANOTHER, hold
 from workflow.config import read_config
 from workflow.summary import last_words
 

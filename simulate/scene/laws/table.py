@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
-from geometry.project import checked
+from geometry.project import SettingsError, checked
 from simulate.scene.law import Unloading
 from simulate.scene.tables import Points, from_csv
 
@@ -62,6 +62,14 @@ class Curve(Points):
                 i = int(step.argmax()) + 2
                 rule = "ascend" if what == "strain" else "not fall"
                 raise ValueError(f"{what} at point {i} (strain {strain[i - 1]:g}): should {rule}")
+        if strain[-1] > 1.0:
+            raise SettingsError(
+                "a rod would be compressed by more than its length: allowed up to 1; of strains in "
+                "per cent the column is strain_percent",
+                key="strain",
+                value=float(strain[-1]),
+                allowed={"le": 1.0},
+            )
         if stress[-1] == 0.0:
             raise ValueError("stress is 0 throughout")
 
