@@ -92,7 +92,8 @@ def _mtx(path: Path, letter: str) -> FileMatrix:
         return FileMatrix(_market(path))
     *places, values = _columns(path, "," if "," in head else None)
     if len(places) == 2:
-        return FileMatrix(_whole(_placed(*places, values), len(values)))
+        i, j = places
+        return FileMatrix(_whole(_placed(i, j, values), len(values)))
     require(
         path,
         (
@@ -119,7 +120,14 @@ def _market(path: Path) -> csr_matrix:
         np.array(body.split(), dtype=float)  # refuses what mmread would end a number at
         return csr_matrix(mmread(BytesIO(text)))
     i, j, *values = _columns(path, comments="%", skip=size)
-    require(path, (len(i) == entries, f"has {len(i)} entries, its head says {entries}"))
+    require(
+        path,
+        (len(i) == entries, f"has {len(i)} entries, its head says {entries}"),
+        (
+            len(values) == 1 + (kind == "complex"),
+            f"has {2 + len(values)} numbers a line, its head says {kind}",
+        ),
+    )
     A = _placed(i, j, values[0] + 1j * values[1] if values[1:] else values[0], (rows, columns))
     return A + A.T - diags(A.diagonal()) if symmetry == "symmetric" else A
 

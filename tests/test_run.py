@@ -131,6 +131,25 @@ def test_a_path_with_letters_of_any_language_runs(machine):
     assert machine.run("true").returncode == 0
 
 
+def test_an_umlaut_in_the_path_stops_no_python_of_an_ascii_locale(machine):
+    """Python 3.12 reads .pth files in the encoding of the locale, here ASCII."""
+    machine.root = machine.root.rename(machine.root.with_name("Prüfstand"))
+    machine.run("true")
+    packages = machine.root / ".venv/lib/python3.12/site-packages"
+    packages.mkdir(parents=True)
+    (packages / "tiprub.pth").write_text(f"{machine.root}\n")  # of an older version
+    machine.run("true")
+    code = "import site, sys; site.addsitedir(sys.argv[1]); print(ascii(sys.path[-1]))"
+    found = subprocess.run(
+        [PYTHON, "-S", "-c", code, packages],
+        env={"LC_ALL": "C", "PYTHONCOERCECLOCALE": "0"},
+        text=True,
+        capture_output=True,
+        check=True,
+    )
+    assert found.stdout.strip() == ascii(str(machine.root))
+
+
 def test_targets_beside_config_are_none_of_its_values(machine):
     machine.command("snakemake", 'echo "$@"')
     for words in (["sweeps", "--config", "blocks=2"], ["--config", "blocks=2", "-n", "sweeps"]):

@@ -286,6 +286,68 @@ def test_file_of_another_kind_is_refused(file, text, fault, tmp_path):
     refused(GivenError, read_matrix, tmp_path / file, "K", match=fault)
 
 
+HEAD = "%%MatrixMarket matrix {} {} {}\n% by hand\n2 2 2\n{}"
+
+
+@pytest.mark.parametrize(
+    ("file", "text"),
+    [
+        ("K.mtx", HEAD.format("coordinate", "real", "general", "1 1 1.5D+03\n2 2 2.0d0\n")),
+        ("K.mtx", HEAD.format("coordinate", "complex", "general", "1 1 1.5E3 0\n2 2 2 0.0\n")),
+        (
+            "K.mtx",
+            HEAD.format("array", "real", "general", "1.5D3\n0\n0\n2.0\n").replace("2 2 2", "2 2"),
+        ),
+        ("K.mtx", "1, 1, 1.5D+3\n2, 2, 2.0\n"),
+        ("K.mtx", "1,1, 1,1, 1.5D+3\n1,2, 1,2, 2.0\n"),
+        ("K.sti", "1 1 1.5D+3\n2 2 2.0\n"),
+    ],
+)
+def test_exponents_of_fortran_are_read(file, text, tmp_path):
+    """`mmread` ends a number at the D: 1.5."""
+    (tmp_path / file).write_text(text)
+    (tmp_path / "K.dof").write_text("1.1\n1.2\n")
+    assert read_matrix(tmp_path / file, "K").A.toarray().tolist() == [[1500.0, 0.0], [0.0, 2.0]]
+
+
+@pytest.mark.parametrize(
+    ("file", "text", "fault"),
+    [
+        (
+            "K.mtx",
+            HEAD.format("coordinate", "complex", "general", "1 1 1 .5\n2 2 2 0\n"),
+            "complex",
+        ),
+        (
+            "K.mtx",
+            HEAD.format("coordinate", "pattern", "general", "1 1\n2 2\n"),
+            "not their values",
+        ),
+        ("K.mtx", HEAD.format("coordinate", "real", "skew-symmetric", "2 1 1.\n"), "is skew-sym"),
+        ("K.mtx", HEAD.format("coordinate", "real", "general", "1 1 1,5\n2 2 2,0\n"), "'1,5'"),
+        ("K.mtx", HEAD.format("coordinate", "real", "general", "1 1 1.5+3\n2 2 2\n"), "1.5.3"),
+        (
+            "K.mtx",
+            HEAD.format("coordinate", "real", "general", "1 1 1. 7\n2 2 2. 8\n"),
+            "4 numbers",
+        ),
+        ("K.mtx", HEAD.format("coordinate", "real", "general", "1 1 1.\n"), "has 1 entries.* 2"),
+        ("K.mtx", HEAD.format("coordinate", "real", "general", "0 0 1.\n1 1 2.\n"), "from 1"),
+        ("K.mtx", "0, 0, 1.0\n1, 1, 2.0\n", "in row or column 0: .* counted from 1"),
+        ("K.sti", "1 1 1.0 2.0\n2 2 2.0 1.0\n", "4 numbers a line, needs 3"),
+        (
+            "K.pch",
+            f"DMIG*   {'K':16}{1:16d}{1:16d}\n*       {1:16d}{1:16d}{'1.0D+0':>16}{'.5':>16}\n",
+            "is complex",
+        ),
+    ],
+)
+def test_entries_that_would_be_lost_are_refused(file, text, fault, tmp_path):
+    (tmp_path / file).write_text(text)
+    (tmp_path / "K.dof").write_text("1.1\n1.2\n")
+    refused(GivenError, read_matrix, tmp_path / file, "K", match=fault)
+
+
 def test_directions_are_those_of_the_file(tmp_path):
     """Also numbers that no node of a solid has."""
     (tmp_path / "K.mtx").write_text("5,17, 5,17, 2.0\n")

@@ -1,5 +1,6 @@
 """What is said of a mesh, against its blade's file; progress in words."""
 
+import re
 from dataclasses import replace
 
 import pytest
@@ -19,6 +20,11 @@ def test_span_radius_and_mass_are_those_of_the_blade(coarse_blade, coarse_mesh):
     assert (
         found.through < 1 and "too few for bending, take mesh.element_size_mm" in found.blade_line()
     )
+    # of the elements that there are, not of their mean edge
+    wanted = float(re.search(r"below (\S+):?", found.blade_line())[1])
+    assert wanted == pytest.approx(coarse_blade.mesh.element_size_mm * found.through, rel=0.05)
+    of_file = replace(found, size=None).blade_line()
+    assert "export elements with edges below 3.1 mm" in of_file and "element_size" not in of_file
     fine = replace(found, edge=found.thickness / 2)
     assert fine.blade_line().endswith("2.0 through the mean thickness of 3.1 mm: enough")
 

@@ -9,6 +9,7 @@ from refused import refused
 from geometry.blade import SectionTable
 from geometry.mesh import MeshError, build_mesh
 from geometry.profile import profile_at
+from geometry.project import MeshWarning
 from geometry.table import read_sections
 
 CUT = 0.01  # of the chord
@@ -195,3 +196,16 @@ def test_section_whose_sides_cross_is_refused(coarse_blade, outlines, tmp_path):
         -(((np.arange(41) - 20) / 6) ** 2)
     )  # the suction side comes out of the pressure side
     assert refused(MeshError, build, coarse_blade, rows(crossed), tmp_path).key == "section 3"
+
+
+def test_columns_of_radius_angle_and_z_are_told(coarse_blade, outlines, tmp_path):
+    """In degrees they make a blade of another thickness and stagger; in radians a sheet."""
+    polar = []
+    for x, y, z in map(np.transpose, outlines):
+        angle = np.degrees(np.arctan2(y, x))
+        polar.append(np.column_stack([1e3 * np.hypot(x, y), angle, 1e3 * z]))
+    with pytest.warns(MeshWarning, match="a radius, an angle and z, give x, y, z"):
+        build(coarse_blade, rows(polar, scale=1), tmp_path)
+    radians = [points * [1, np.pi / 180, 1] for points in polar]
+    error = refused(MeshError, build, coarse_blade, rows(radians, scale=1, digits=6), tmp_path)
+    assert "% of its chord thick" in error.text and "x, y, z, all in one unit" in error.text

@@ -163,6 +163,9 @@ def test_casings_of_a_function_a_table_and_harmonics_are_equal(tmp_path):
         ("theta_deg,depth_mm\n90,1\n0,2\n", "should ascend, from 0"),
         ("theta_deg,depth_mm\n0,1\n400,2\n", "should ascend, from 0"),
         ("theta_deg,depth_mm\n0,1\n360,2\n", "which are one place, differ"),
+        ("theta_deg,depth_mm\n0,1\n3.14,2\n6.28,1\n", "are they radians?"),
+        ("theta_deg,depth_mm\n0,1\n90,2\n", "no depth between 90 and 360 deg"),
+        ("theta_deg,depth_mm\n100,1\n180,2\n270,2\n", "no depth between 270 and 460 deg"),
         (None, "cannot be read"),
     ],
 )
@@ -172,6 +175,13 @@ def test_tables_that_are_refused(tmp_path, text, told):
         path.write_text(text)
     error = refused(SettingsError, scene().but, casing={"table": str(path), "harmonics": None})
     assert error.key == "casing.table" and told in error.text
+
+
+def test_a_narrow_bump_needs_no_angles_elsewhere():
+    """The depth between its ends is the same all around."""
+    bump = {"theta_deg": [80, 90, 100], "depth_m": [1e-6, 4e-5, 0]}
+    case = scene().but(casing={"table": bump, "harmonics": None})
+    assert abs(case.casing.inward(np.array([4.0]), 1.0)[0]) < 1e-6
 
 
 def test_a_casing_is_given_in_one_form():

@@ -87,6 +87,7 @@ def test_curve_that_yields_at_once_has_no_elastic_part():
         ({"strain": [0.1, 0.2], "stress_Pa": [0, 0.1]}, "begins at strain 0.1, stress 0 Pa"),
         ({"strain": [0, 0.2], "stress_Pa": [0, 0.1, 0.2]}, "2 strain and 3 stress_Pa: give"),
         ({"strain": [0, 0.1], "stress_Pa": [0, 0.0]}, "stress is 0 throughout"),
+        ({"strain": [0, 0.5, 8], "stress_Pa": [0, 1.0, 4.5]}, "the column is strain_percent"),
         ({"strain": [0, 0.1, 0.2], "stress_Pa": [0, 0.1, 0.9]}, "curve: rises by 8 Pa from "),
         ({"strain": [0, 0.1, 0.2], "stress_Pa": [0, 0.3, 0.6]}, "curve: never yields"),
         ({"strain": [0, 0.1, 0.2], "stress_Pa": [0, 0.1, 0.4]}, "curve: never yields, or rises"),

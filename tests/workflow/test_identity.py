@@ -4,7 +4,7 @@ import os
 import re
 import shutil
 import time
-from contextlib import nullcontext
+from contextlib import closing, nullcontext
 from pathlib import Path
 
 import meshio
@@ -25,6 +25,7 @@ from geometry.project import (
     unchanged,
 )
 from geometry.shape import source_of
+from workflow.at_work import ANOTHER, hold
 
 LAW = "from math import sqrt\nfrom helper import PORES\n" + own_law.LAW.replace("1.0 *", "PORES *")
 OF_MESH = {"unit": "mm", "root": {"group": "ROOT"}, "tip": {"group": "TIP"}}
@@ -168,6 +169,19 @@ def test_each_file_alone_reruns_the_job_that_reads_it(copy, path):
     assert remade(copy) == {"curve.csv": both, "foreign.nc": of_model}.get(
         Path(path).name, {FILES[path]}
     )
+
+
+@pytest.mark.slow
+def test_a_second_run_says_that_another_is_at_work(copy):
+    """It runs: both end right, or the other one says which file it misses."""
+    attacked = "workflow/blades/a.step"
+    replaced_by_older(copy.folder / attacked, texts("7")[attacked])
+    at_work = copy.folder / ".snakemake/at-work"
+    with closing(hold(at_work)):
+        assert hold(at_work) is None
+        assert ANOTHER in " ".join(copy.run(*OUTPUTS).split())
+    replaced_by_older(copy.folder / attacked, texts("5")[attacked])
+    assert "another run" not in copy.run(*OUTPUTS)
 
 
 @pytest.mark.slow

@@ -14,7 +14,8 @@ from exports import parts, write_inp
 from projects import ROOT, make_project
 from refused import refused
 
-from geometry.blade import Blade
+from geometry.blade import Blade, Frame
+from geometry.mesh import build_mesh
 from geometry.project import SettingsError, check_settings, read_json, yaml_file
 from geometry.sections import loft_parameters
 from geometry.shape import session
@@ -224,7 +225,7 @@ def test_new_says_what_a_mesh_holds_in_its_own_axes(project, capsys, coarse_mesh
     write_inp(project / "a.inp", turned, *others)
     capsys.readouterr()  # of the reader of the mesh
     assert new.main(["blade", "mine", "a.inp"], project) == 0
-    cells, box, axes, groups, _ = capsys.readouterr().out.splitlines()
+    cells, box, axes, groups, *_ = capsys.readouterr().out.splitlines()
     assert cells == f"{len(others[0])} tetrahedra on {len(points)} nodes"
     z = turned[:, 2]
     assert box.endswith(f", z {z.min():.5g} to {z.max():.5g}")
@@ -242,6 +243,61 @@ def test_new_says_the_unit_and_the_box_of_a_step_file(project, capsys, coarse_bl
     # of corners: within the sagitta of the tip's end
     assert float(re.search(r"box x \S+ to (\S+),", box)[1]) == pytest.approx(tip, rel=1e-3)
     assert axes.startswith("radial x (assumed")
+
+
+def test_new_writes_what_a_mesh_says(project, capsys, coarse_mesh):
+    """Axes, in which a blade can be a compressor's, groups, material, patches; left are two lines.
+
+    The engine axis is -x of the file, the radius along -y.
+    """
+    points, *others = parts(coarse_mesh.mesh)
+    material = "*MATERIAL, NAME=S\n*ELASTIC\n2.1E5, 0.3\n*DENSITY\n7.85E-9\n"
+    write_inp(project / "a.inp", points[:, [2, 0, 1]] * [-1, -1, 1], *others)
+    with (project / "a.inp").open("a") as file:
+        file.write(material + "*SOLID SECTION, ELSET=EALL, MATERIAL=S\n")
+    assert new.main(["blade", "mine", "a.inp"], project) == 0
+    text = Path("workflow/blades/mine.yaml").read_text()
+    blade = Blade.load("workflow/blades/mine.yaml")
+    assert (blade.source.unit, blade.source.root.group) == ("mm", "ROOT")
+    assert blade.source.frame == Frame(downstream="-x", radial="-y")
+    assert (blade.material.young_modulus_GPa, blade.material.density_kg_m3) == (210, 7850)
+    assert [line for line in text.splitlines() if "<--" in line] == [
+        line for line in text.splitlines() if line.startswith("max_speed_rpm")
+    ]
+    tip = re.search(r"tip: radius (.*) mm, chord (.*) mm, along the rotation (.*) mm wide", text)
+    assert [*map(float, tip.groups())] == pytest.approx([562.4, 60, 2.9], rel=0.07)
+    assert Path("results/mine/look.png").stat().st_size > 10_000
+    summary = build_mesh(blade, project / "blade.msh", "workflow/blades/a.inp")
+    assert summary.mass == pytest.approx(coarse_mesh.summary.mass * 7850 / 4430, rel=1e-6)
+
+
+def test_new_writes_what_a_step_file_says(project, capsys, coarse_blade, coarse_mesh):
+    """As it stands: unit, axes, radii and the size of elements are the blade's own."""
+    export(project, coarse_blade, coarse_mesh)
+    assert new.main(["blade", "mine", "blade.step"], project) == 0
+    blade = Blade.load("workflow/blades/mine.yaml")
+    sections = coarse_blade.sections
+    assert blade.source.frame == Frame() and blade.source.unit == "mm"
+    # a hundredth of the span from its ends
+    assert blade.source.root.radius_mm == pytest.approx(sections.hub_radius_mm + 1.4, abs=0.1)
+    assert blade.source.tip.radius_mm == pytest.approx(1e3 * sections.tip_radius - 1.4, abs=0.1)
+    assert blade.mesh.element_size_mm == pytest.approx(3.1, rel=0.05)  # the mean thickness
+    given = "material: {young_modulus_GPa: 113.8"
+    marked = [line for line in _text("mine").splitlines() if "<--" in line]
+    assert [line.startswith((given, "max_speed_rpm")) for line in marked] == [True, True]
+
+
+def _text(name):
+    return Path(f"workflow/blades/{name}.yaml").read_text()
+
+
+def test_a_blade_of_two_materials_is_said_to_be_one(project, capsys, coarse_mesh):
+    write_inp(project / "a.inp", *parts(coarse_mesh.mesh))
+    with (project / "a.inp").open("a") as file:
+        file.write("*ELEMENT, TYPE=MASS, ELSET=M\n9000, 5\n*MASS, ELSET=M\n2e-7\n")
+    assert new.main(["blade", "mine", "a.inp"], project) == 0
+    assert "not read: " in (told := capsys.readouterr().out) and "full_matrices" in told
+    assert "<-- unit" in _text("mine")
 
 
 def test_a_file_that_cannot_be_read_makes_no_new_blade(project, capsys):
