@@ -6,8 +6,10 @@ cells, from `tests/fem/calculix.py` where no other source is named.
 
 import lzma
 import re
+import subprocess
 from pathlib import Path
 
+import calculix
 import gmsh
 import meshio
 import numpy as np
@@ -16,7 +18,9 @@ from refused import refused
 from scipy.sparse.linalg import eigsh
 
 from fem.assemble import assemble
+from fem.given import read_matrices
 from geometry.blade import Blade
+from geometry.given import GivenMatrices
 from geometry.mesh import build_mesh
 from geometry.mesh_file import read_mesh_file
 from geometry.project import MeshError, MeshWarning, check_settings
@@ -29,7 +33,8 @@ PLAIN = "*MATERIAL, NAME=TI\n*ELASTIC\n113800., 0.342\n*DENSITY\n4.43E-9\n"
 OTHER = "*MATERIAL, NAME=STEEL\n*ELASTIC\n210000., 0.3\n*DENSITY\n7.85E-9\n"
 ALL = "*SOLID SECTION, ELSET=EALL, MATERIAL={}\n"
 HALVES = "*ELSET, ELSET=INNER, GENERATE\n1, 288\n*ELSET, ELSET=OUTER, GENERATE\n289, 576\n"
-CRYSTAL = "*ELASTIC, TYPE=ORTHO\n25., 16., 25., 16., 16., 25., 11.8, 11.8\n11.8, 293.\n"
+CRYSTAL = "*ELASTIC, TYPE=ORTHO\n25e4, 16e4, 25e4, 16e4, 16e4, 25e4, 11.8e4, 11.8e4\n11.8e4, 293.\n"
+CRYSTAL += "*DENSITY\n8.6E-9\n"
 
 
 def case(name):
@@ -160,7 +165,7 @@ REFUSED = {
     ),
     "masses": (
         "a.inp",
-        "*ELEMENT, TYPE=MASS, ELSET=M\n9000, 5\n9001, 6\n*MASS, ELSET=M\n2e-7\n"
+        "*ELEMENT, TYPE=MASS, ELSET=M\n9000, 5\n9001, 6\n*MASS, ELSET=M\n2e-6\n"
         + PLAIN
         + ALL.format("TI"),
         "point masses (2 MASS)",
@@ -186,6 +191,27 @@ def test_physics_that_a_blade_has_not_is_refused(name, mesh, meshed):
     )
     error = refused(MeshError, meshed, file, text, **ends)
     assert words in error.text and "full_matrices" in error.text
+
+
+@pytest.mark.skipif(calculix.CCX is None, reason="ccx is not here (calculix-ccx)")
+@pytest.mark.parametrize("name", ["two materials", "a crystal", "masses"])
+def test_matrices_of_calculix_have_that_physics(name, mesh, tmp_path):
+    """The way through that the refusal names: f1 is the one that ccx prints for the same deck."""
+    deck = mesh + REFUSED[name][1]
+    clamped = "*BOUNDARY\nROOT, 1, 3\n*STEP\n*FREQUENCY{}\n3\n*END STEP\n"
+    for job, solver in (("rest", ", SOLVER=MATRIXSTORAGE"), ("printed", "")):
+        (tmp_path / f"{job}.inp").write_text(deck + clamped.format(solver))
+        subprocess.run([calculix.CCX, "-i", job], cwd=tmp_path, capture_output=True, check=True)
+    (tmp_path / "a.inp").write_text(deck)
+    ends = {end: {"group": end.upper()} for end in ("root", "tip")}
+    files = {"M": "rest.mas", "K": {0.0: "rest.sti"}}
+    given = {"full_matrices": files | {"mesh_file": {"file": "a.inp", "unit": "mm"} | ends}}
+    blade = check_settings(GivenMatrices, given | {"patches": 4, "max_speed_rad_s": 600}, "blade")
+    found = read_matrices(blade, "given", tmp_path)
+    f1 = np.sqrt(eigsh(found.K[0], 1, M=found.M, sigma=0)[0][0]) / (2 * np.pi)
+    printed = re.search(r"^ +1 +\S+ +\S+ +(\S+)", (tmp_path / "printed.dat").read_text(), re.M)[1]
+    assert f1 == pytest.approx(float(printed), rel=1e-5)
+    assert abs(f1 / 650.81 - 1) > 0.03  # of the mesh alone, in titanium
 
 
 def test_masses_of_ansys_are_refused(mesh, meshed):

@@ -1,11 +1,16 @@
 """workflow/config.yaml and --config: one strict reader, each fault of the right source."""
 
+import subprocess
+from errno import ENOSPC
 from pathlib import Path
 
 import pytest
+from projects import make_project
 from refused import refused
 
 from geometry.project import SettingsError
+from workflow import at_work
+from workflow.at_work import not_writable
 from workflow.config import Config, read_config
 
 SCENES = ("paper-e1", "paper-e10")
@@ -68,3 +73,27 @@ def test_a_fault_of_the_command_line_has_its_key_value_and_what_is_allowed(
     error = refused(SettingsError, read, TEXT, given)
     assert error.file == "--config"
     assert (error.key, error.value, error.allowed) == (key, value, allowed)
+
+
+def test_a_folder_without_room_or_rights_is_named(tmp_path, monkeypatch):
+    assert not not_writable(tmp_path)
+    none = tmp_path / "none"
+    assert not_writable(none).startswith(f"{none}: cannot be written (No such file")
+
+    def full(**_):
+        raise OSError(ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(at_work, "TemporaryFile", full)
+    assert "(No space left on device): make room there" in not_writable(tmp_path)
+
+
+def test_a_run_without_a_temporary_folder_ends_in_one_line(tmp_path, monkeypatch):
+    """Snakemake would have a traceback of its scheduler."""
+    project = make_project(tmp_path)
+    monkeypatch.setenv("TMPDIR", "/none")
+    done = subprocess.run(
+        project.command("-n"), cwd=tmp_path, env=project.environment, capture_output=True, text=True
+    )
+    assert done.returncode == 1 and "Traceback" not in done.stderr
+    assert "/none: cannot be written (No such file or directory)" in done.stderr
+    assert "or set TMPDIR" in done.stderr

@@ -5,6 +5,7 @@ import sys
 from functools import cache
 from itertools import chain
 from pathlib import Path
+from tempfile import gettempdir
 
 from snakemake.exceptions import WorkflowError
 
@@ -23,7 +24,7 @@ from rom.speeds import basis_speeds, check_speeds
 from simulate.scene.design import Design, refuse
 from simulate.scene import Scene, fault_of_blade
 from simulate.scene.casing import CASING
-from workflow.at_work import ANOTHER, hold
+from workflow.at_work import ANOTHER, hold, not_writable
 from workflow.config import read_config
 from workflow.summary import last_words
 
@@ -57,6 +58,14 @@ if not os.path.isfile("workflow/config.yaml"):
         f"{os.getcwd()}: no workflow/config.yaml; start in the folder of a project, as ./run does, or "
         f"add --directory {ROOT}"
     )
+
+
+for folder, remedy in (
+    (os.getcwd(), ""),
+    (os.environ.get("TMPDIR", gettempdir()), "; or set TMPDIR"),
+):
+    if fault := not_writable(folder):
+        raise WorkflowError(fault + remedy)
 
 
 def read_or_fail(read, *arguments):
