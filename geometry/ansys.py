@@ -47,7 +47,7 @@ LABELS = {
 }
 FORMAT = re.compile(r"\((\d*)i(\d+),(\d+)e(\d+)\.\d+(?:e\d+)?\)")  # of a block of nodes
 # TB of elastic laws; with others, as of plasticity, a material may be isotropic
-NOT_ISOTROPIC = re.compile(r"ANEL|HYPER|ELASTIC.*(ORTH|AELS|AELF)")
+NOT_ISOTROPIC = re.compile(r"ANEL|HYPER|MOON|OGDEN|ELAS.*(ORTH|AEL)")
 COMMAND = re.compile(r"[A-Z]\w*")
 # commands that are read, and those that only frame them
 TAKEN = {
@@ -126,7 +126,7 @@ def _nodes(lines: list[str]) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
     A line may lack coordinates at its end, which are 0.
     """
     head = next(i for i, line in enumerate(lines) if line.upper().startswith("NBLOCK"))
-    fields = FORMAT.fullmatch("".join(lines[head + 1 : head + 2]).strip().lower())
+    fields = FORMAT.fullmatch("".join("".join(lines[head + 1 : head + 2]).lower().split()))
     if not fields or int(fields[3]) < 3:
         raise MeshError(
             f"its nodes have no format that is read, as (3i9,6e21.13e3): {EXPORT}", line=head + 2
@@ -241,6 +241,8 @@ def _physics(lines: list[str], solids: list[_Element], others: Counter[str]) -> 
         for command, *fields in commands
         if command == "TB" and len(fields) > 1 and NOT_ISOTROPIC.search(",".join(fields))
     }
+    if named["EN"]:
+        raise MeshError(f"has elements outside its blocks, {named['EN']} EN: {EXPORT}")
     of_cells = Counter(element.material for element in solids)
     turned = {element.material for element in solids if element.turned}
     materials = []
@@ -256,12 +258,13 @@ def _physics(lines: list[str], solids: list[_Element], others: Counter[str]) -> 
 
 def _not_isotropic(values: dict[str, float]) -> str:
     """Labels of a material whose values are not those of an isotropic one."""
-    E, nu = values.get("EX", 0.0), values.get("PRXY", values.get("NUXY", 0.0))
-    isotropic = {"E": E, "N": nu, "P": nu, "G": E / (2 + 2 * nu)}
+    E, nu = values.get("EX", 0.0), values.get("PRXY", values.get("NUXY"))
+    isotropic = {"E": E} | ({} if nu is None else {"N": nu, "P": nu, "G": E / (2 + 2 * nu)})
     return " ".join(
         label
         for label, value in values.items()
-        if re.fullmatch(r"(E|G|NU|PR)[XYZ]+", label) and not agree(value, isotropic[label[0]])
+        if re.fullmatch(r"(E|G|NU|PR)[XYZ]+", label)
+        and not agree(value, isotropic.get(label[0], value))
     )
 
 
@@ -275,4 +278,4 @@ def _properties(lines: list[str]) -> Iterator[tuple[str, int, float]]:
             continue
         first = 3 if command == "MPDATA" else 2  # behind the place of the first value
         with suppress(ValueError, IndexError):
-            yield fields[0], int(fields[1]), float(fields[first])
+            yield fields[0], int(fields[1]), number(fields[first])

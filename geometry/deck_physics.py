@@ -12,8 +12,10 @@ from geometry.project import MeshError, number
 ISOTROPIC = ("", "ISO", "ISOTROPIC")  # TYPE of *ELASTIC
 # other laws of a material than *ELASTIC
 NOT_ELASTIC = re.compile(r"HYPER|USER ?MATERIAL|LOW DENSITY|ANISOTROPIC")
+# options of a section by which its material is not isotropic, or turned
+TURNED = ("ORIENTATION", "COMPOSITE", "CORDM", "PCOMPS", "PCOMPLS", "PLSOLID")
 # elements and cards that add mass
-MASS = re.compile(r"MASS\d*$|ROTARYI$|NONSTRUCTURAL MASS$|CONM\d|CMASS\d")
+MASS = re.compile(r"MASS\d*$|ROTARYI$|NONSTRUCTURAL MASS$|CONM\d|CMASS\d|NSM(ADD|L?1?)$")
 TAKEN = {  # cards that are read, and those that only frame or name others
     *("", "NODE", "NSET", "ELSET", "SURFACE", "MATERIAL", "ELASTIC", "DENSITY", "SOLID SECTION"),
     *("HEADING", "PREPRINT", "PART", "END PART", "ASSEMBLY", "END ASSEMBLY", "INSTANCE"),
@@ -41,14 +43,13 @@ def physics_of(
     for card in (card for card in cards if card.keyword == "SOLID SECTION"):
         name = card.options.get("ELSET", "")
         if name not in element_sets:
-            others[f"*SOLID SECTION of a set that is not defined ({name})"] += 1
-        turned = " ".join(f"*{key}" for key in ("ORIENTATION", "COMPOSITE") if key in card.options)
+            others[f"section of a set that is not defined ({name})"] += 1
+        turned = " ".join(key for key in TURNED if key in card.options)
         section = card.options.get("MATERIAL", "none"), turned
         of_cells |= dict.fromkeys(element_sets.get(name, ()), section)
     sections = Counter(of_cells.get(i, ("none", "")) for i in solids)
-    if {name for name, _ in sections} <= {"none"}:  # no cell has one
-        materials = tuple(defined.values()) if len(defined) == 1 else ()
-        others["*MATERIAL"] = 0 if materials else len(defined)
+    if {*sections} <= {("none", "")}:  # no cell has one
+        materials = tuple(defined.values())
     else:
         materials = tuple(
             replace(material, cells=count, other=" and ".join(filter(None, [material.other, by])))
@@ -63,7 +64,9 @@ def _not_read(card: Card) -> Iterator[str]:
     kind = card.options.get("TYPE", "")
     if card.keyword != "ELEMENT":
         if card.keyword not in TAKEN and not NOT_ELASTIC.match(card.keyword):
-            yield card.keyword if MASS.match(card.keyword) else f"*{card.keyword}"
+            yield card.keyword
+        elif card.keyword in ("ELASTIC", "DENSITY") and len(card.rows) > 1:
+            yield f"{card.keyword} at other temperatures"
     elif not kind.startswith("C3D") and not re.match(r"C(TETRA|HEXA|PENTA|PYRAM)", kind):
         yield from [kind] * len(card.rows)
 
@@ -85,9 +88,9 @@ def _materials(cards: Iterable[Card]) -> Iterator[FileMaterial]:
                     material, young_modulus=young_modulus, poisson_ratio=poisson_ratio
                 )
             else:
-                material = replace(material, other=f"*ELASTIC, TYPE={kind}")
+                material = replace(material, other=f"ELASTIC, TYPE={kind}")
         elif material and NOT_ELASTIC.match(card.keyword):
-            material = replace(material, other=f"*{card.keyword}")
+            material = replace(material, other=card.keyword)
     if material:
         yield material
 

@@ -65,12 +65,9 @@ class FileMaterial:
         ]
 
     def same_as(self, other: "FileMaterial") -> bool:
-        """Whether the file gives values, and those of the ``other`` are the same."""
-        pairs = list(zip(self.values, other.values, strict=True))
-        known = [(a, b) for a, b in pairs if a is not None and b is not None]
-        return bool(known) and all(
-            (a is None) == (b is None) if None in (a, b) else agree(a, b) for a, b in pairs
-        )
+        """Whether the file gives all values of both, and they are the same."""
+        pairs = zip(self.values, other.values, strict=True)
+        return all(a is not None and b is not None and agree(a, b) for a, b in pairs)
 
 
 @dataclass(frozen=True)
@@ -99,7 +96,9 @@ class Physics:
         """
         faults = [f"material {m.name} with {m.other}" for m in self.materials if m.other]
         if any(not material.same_as(self.materials[0]) for material in self.materials[1:]):
-            named = ", ".join(f"{m.name} of {m.cells} cells" for m in self.materials)
+            named = ", ".join(
+                f"{m.name} of {m.cells} cells" if m.cells else m.name for m in self.materials
+            )
             faults.insert(0, f"{len(self.materials)} materials ({named})")
         if self.masses:
             masses = ", ".join(f"{count} {name}" for name, count in sorted(self.masses.items()))

@@ -18,7 +18,7 @@ from geometry.project import MeshError, MeshWarning
 from geometry.shape import CELL, FACET, Shape
 from geometry.tetrahedra import EDGES, GMSH, edge_lengths, exterior
 
-LEAST_AROUND = 120.0  # degrees; 255 on our own meshes, 190 at the end of a sharp edge of 10 degrees
+LEAST_AROUND = 80.0  # degrees; 255 on our own meshes, 112 at a sharp edge with 40 degrees of sweep
 MOST_BENT = 0.5  # of an edge's length: half a circle; below 0.02 on our own meshes
 MERGED = 1e-3  # of the median edge; above 0.03 across a thin trailing edge
 MOST_ALONG = 0.24  # of an edge, from its middle to its middle node
@@ -112,7 +112,7 @@ def _check_needles(points: NDArray, surface: NDArray) -> None:
         raise MeshError(
             f"the node at {_place(points[worst])} mm in the blade's frame stands out of the "
             f"surface: the facets around it make {around[worst]:.0f} degrees (allowed from "
-            f"{LEAST_AROUND:g}): correct its coordinates"
+            f"{LEAST_AROUND:g}): correct its coordinates, or {BY_MATRICES}"
         )
 
 
@@ -256,6 +256,8 @@ def _require_positive(found: NDArray, middles: NDArray, numbers: NDArray, remedy
     """
     if not np.all(found > 0):
         worst = int(found.argmin())
+        if np.all(found < 0):
+            remedy = "all are: reverse the order of their nodes, or the axis that is mirrored"
         raise MeshError(
             f"{np.sum(~(found > 0))} of {len(found)} cells are inside out or flat; the worst "
             f"(Jacobian ratio {found[worst]:.2f}, where it is integrated) is at "

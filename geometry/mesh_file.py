@@ -49,8 +49,7 @@ def _read_msh(path: Path) -> FileMesh:
     head, *lines = dict(sections)[b"Elements"].strip().splitlines()
     if ASCII.search(data):
         _require_all(mesh, len(lines) if len(head.split()) == 1 else int(head.split()[1]))
-    mesh.cell_sets = {}
-    _named(mesh, data.partition(b"$EndPhysicalNames")[0])
+    _name(mesh, data.partition(b"$EndPhysicalNames")[0])
     return _from_meshio(mesh)
 
 
@@ -184,19 +183,23 @@ def _cell_groups(mesh: meshio.Mesh) -> dict[str, list[NDArray]]:
     return groups
 
 
-def _named(mesh: meshio.Mesh, data: bytes) -> None:
-    """Give ``mesh`` the physical groups of its file, whose ``data`` name them, as sets of cells.
+def _name(mesh: meshio.Mesh, data: bytes) -> None:
+    """Add to ``mesh`` the physical groups of its file, whose ``data`` name them, as sets of cells.
 
-    meshio keeps one of several dimensions with the same name.
+    meshio keeps one of several dimensions with the same name, and of those with several groups one.
     """
+    given = Counter(name.decode() for *_, name in NAMES.findall(data))
+    mesh.cell_sets = {name: of for name, of in mesh.cell_sets.items() if given[name] == 1}
     physical = mesh.cell_data.get("gmsh:physical", [np.zeros(len(b), int) for b in mesh.cells])
     for dim, tag, name in NAMES.findall(data):
         members = [
             np.flatnonzero((tags == int(tag)) & (block.dim == int(dim)))
             for block, tags in zip(mesh.cells, physical, strict=True)
         ]
-        others = mesh.cell_sets.get(name := name.decode(), [np.empty(0, int)] * len(members))
-        mesh.cell_sets[name] = list(map(np.union1d, others, members))
+        others = mesh.cell_sets.get(name := name.decode(), [()] * len(members))
+        mesh.cell_sets[name] = [
+            np.union1d(np.asarray(of, int), own) for of, own in zip(others, members, strict=True)
+        ]
 
 
 def _values(name: str, data: NDArray) -> dict[str, NDArray]:

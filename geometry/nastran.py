@@ -15,7 +15,8 @@ from geometry.project import MeshError, number, read_text
 SOLIDS = {"CTETRA": (4, 10), "CPYRAM": (5, 13), "CPENTA": (6, 15), "CHEXA": (8, 20)}  # nodes
 UPRIGHT = {15: 6, 20: 8}  # their first middle node; those of upright edges stand before the upper
 SOLID = re.compile(r"C(TET|HEX|PEN|PYR)")  # others of this kind are refused
-MATERIAL = re.compile(r"MAT\d+|PSOLID")
+# of solids; others, as MAT4 of heat, may have the number of a MAT1
+MATERIAL = re.compile(r"MAT(1|3|9|11|9ORT|9OR|HP|HE|ORT|USR)|PSOLID|PCOMPL?S|PLSOLID")
 SHELLS = {  # by their corners
     **dict.fromkeys(("CTRIA3", "CTRIA6", "CTRIAR"), "CTRIA3"),
     **dict.fromkeys(("CQUAD4", "CQUAD8", "CQUADR"), "CQUAD4"),
@@ -67,8 +68,10 @@ def _material(line: int, keyword: str, fields: list[str]) -> list[Card]:
     name, E, G, nu, density, *_ = map(_decimal, [*fields, *[""] * 5])
     if keyword == "PSOLID":
         options, system = {"ELSET": f"nastran:ref={name}", "MATERIAL": E}, G
-        turned = {} if system in ("", "0", "-1") else {"ORIENTATION": system}  # -1: the element's
+        turned = {} if system in ("", "0", "-1") else {"CORDM": system}  # -1: the element's
         return [Card("SOLID SECTION", options | turned, line)]
+    if keyword.startswith("P"):
+        return [Card("SOLID SECTION", {"ELSET": f"nastran:ref={name}", keyword: ""}, line)]
     material = Card("MATERIAL", {"NAME": name}, line)
     if keyword != "MAT1":
         return [material, Card("ELASTIC", {"TYPE": keyword}, line)]

@@ -48,7 +48,8 @@ class CutSection:
         """Largest difference (2,), m, between both sides at one z: of x, and of the radius."""
         (x, y, z), (other_x, other_y, other_z) = self.suction.T, self.pressure.T
         pairs = (x, other_x), (np.hypot(x, y), np.hypot(other_x, other_y))
-        return np.array([abs(np.interp(z, other_z, b) - a).max() for a, b in pairs])
+        both = (z > other_z[0]) & (z < other_z[-1])
+        return np.array([abs(np.interp(z, other_z, b) - a)[both].max() for a, b in pairs])
 
 
 def read_sections(table: SectionTable, path: str | Path) -> list[CutSection]:

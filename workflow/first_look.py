@@ -2,7 +2,7 @@
 
 import warnings
 from collections.abc import Iterator
-from contextlib import redirect_stdout
+from contextlib import redirect_stdout, suppress
 from io import StringIO
 from itertools import product
 from pathlib import Path
@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from geometry.blade import METRES, Blade, Frame, Interface
+from geometry.blade import METRES, Blade, Frame, Interface, Material
 from geometry.cad import StepFile
 from geometry.facets import normals
 from geometry.file_mesh import FileMesh
@@ -20,7 +20,7 @@ from geometry.file_physics import FileMaterial, Physics
 from geometry.frame import rotation
 from geometry.mesh import ENOUGH, MeshSummary, build_mesh
 from geometry.mesh_file import read_mesh_file
-from geometry.project import MeshWarning, UserError, check_settings
+from geometry.project import MeshError, MeshWarning, UserError, check_settings
 from geometry.tetrahedra import exterior, patches
 from workflow.figures.style import (
     BLACK,
@@ -55,10 +55,8 @@ class Look(NamedTuple):
 
     @property
     def material(self) -> dict[str, float]:
-        """The one material of a deck, by the keys of a blade's; empty where values lack."""
-        first = next(iter(self.physics.materials), FileMaterial(""))
-        values = first.taken_in(self.source["unit"])
-        return {key: float(f"{x:.6g}") for key, x in values.items()} if len(values) == 3 else {}
+        """The one material of a deck, by the keys of a blade's; empty where it has none."""
+        return _material(self.physics, self.source["unit"])
 
     @property
     def size(self) -> float:
@@ -93,17 +91,19 @@ def look(file: Path, kind: str) -> Look:
     if kind == "cad":
         step = StepFile(file)
         faces, unit = step.faces(), next(iter(step.units), "mm")
+        points, names = np.concatenate([corners for _, corners in faces]), [n for n, _ in faces]
     else:
-        mesh = read_mesh_file(file)
-        physics = mesh.physics
+        mesh = read_mesh_file(file).without_unused()
+        physics, points = mesh.physics, mesh.points
         physics.require_plain()
-        faces = _faces(mesh.without_unused())
-        unit = "m" if np.ptp(_corners(faces), axis=0).max() < LONGEST_IN_M else "mm"
+        faces, names = _pieces(mesh), _groups(mesh)
+        likely = "m" if np.ptp(points, axis=0).max() < LONGEST_IN_M else "mm"
+        unit = next((u for u in (likely, *METRES) if _material(physics, u)), likely)
     faults = []
-    for frame in _frames(faces):
-        ends = _root_and_tip(faces, frame, 1e3 * METRES[unit], MARGIN * (kind == "cad"))
+    for frame in _frames(faces, points):
+        ends = _root_and_tip(faces, names, frame, 1e3 * METRES[unit], MARGIN * (kind == "cad"))
         source = {"unit": unit, "frame": frame.model_dump()} | ends
-        size = COARSE * 1e3 * METRES[unit] * float(np.ptp(_corners(faces), axis=0).max())
+        size = COARSE * 1e3 * METRES[unit] * float(np.ptp(points, axis=0).max())
         found = _meshed(file, kind, source, {"element_size_mm": size} if kind == "cad" else None)
         if isinstance(found, Look):
             return found._replace(physics=physics)
@@ -111,24 +111,45 @@ def look(file: Path, kind: str) -> Look:
     raise faults[0]
 
 
-def _corners(faces: Faces) -> NDArray[np.float64]:
-    return np.concatenate([points for _, points in faces])
+def _material(physics: Physics, unit: str) -> dict[str, float]:
+    """The first material of a deck, if its values in a ``unit`` of length can be those of one."""
+    first = next(iter(physics.materials), FileMaterial(""))
+    values = {key: float(f"{x:.6g}") for key, x in first.taken_in(unit).items()}
+    with suppress(UserError):
+        check_settings(Material, values, "")
+        return values
+    return {}
 
 
-def _faces(mesh: FileMesh) -> Faces:
-    """The groups of a mesh, and each piece of its surface across the radius, as faces of CAD."""
-    groups = [*mesh.node_groups.items(), *mesh.face_groups.items()]
+def _pieces(mesh: FileMesh) -> Faces:
+    """Each piece of the surface of a mesh that lies across the radius, as a face of CAD.
+
+    Raises
+    ------
+    MeshError
+        When there is none on one side: no axes are found.
+    """
     surface, points = exterior(mesh.cells), mesh.points
     normal = normals(surface, points) / np.linalg.norm(normals(surface, points), axis=1)[:, None]
     across = normal[:, _radial(points)]
-    pieces = [
-        facets[patches(facets) == piece]
-        for facets in (surface[across < -END], surface[across > END])
-        if len(facets)
+    sides = surface[across < -END], surface[across > END]
+    if not all(map(len, sides)):
+        raise MeshError("no surface across the axis that is farthest from the origin")
+    return [
+        ("", points[np.unique(facets[patches(facets) == piece])])
+        for facets in sides
         for piece in range(patches(facets).max() + 1)
     ]
-    named = [*groups, *(("", piece) for piece in pieces)]
-    return [(name, points[np.unique(nodes)]) for name, nodes in named if len(nodes)]
+
+
+def _groups(mesh: FileMesh) -> list[str]:
+    """Names of the groups that hold a facet of the surface."""
+    surface = exterior(mesh.cells)
+    return [name for name, of in mesh.face_groups.items() if len(of)] + [
+        name
+        for name, nodes in mesh.node_groups.items()
+        if np.isin(surface, nodes).all(axis=1).any()
+    ]
 
 
 def _radial(points: NDArray) -> int:
@@ -136,11 +157,10 @@ def _radial(points: NDArray) -> int:
     return int(abs(points.min(axis=0) + points.max(axis=0)).argmax())
 
 
-def _frames(faces: Faces) -> Iterator[Frame]:
+def _frames(faces: Faces, points: NDArray) -> Iterator[Frame]:
     """Axes that a blade can have, first those about whose engine axis the tip lies on a circle."""
-    corners = _corners(faces)
-    radial = _radial(corners)
-    sign = "-" if corners[:, radial].mean() < 0 else ""
+    radial = _radial(points)
+    sign = "-" if points[:, radial].mean() < 0 else ""
     tip = max((points for _, points in faces), key=lambda points: abs(points[:, radial]).min())
     others = [axis for axis in (2, 0, 1) if axis != radial]
     off = [np.ptp(np.hypot(*np.delete(tip, axis, axis=1).T)) for axis in others]
@@ -151,7 +171,9 @@ def _frames(faces: Faces) -> Iterator[Frame]:
         yield Frame(downstream=downstream, radial=f"{sign}{'xyz'[radial]}", rotation=hand)
 
 
-def _root_and_tip(faces: Faces, frame: Frame, scale: float, margin: float) -> dict[str, Any]:
+def _root_and_tip(
+    faces: Faces, names: list[str], frame: Frame, scale: float, margin: float
+) -> dict[str, Any]:
     """Root and tip by names that say so, else by the radius of the innermost and outermost face.
 
     ``scale``: mm of a unit of the file; ``margin``: share of the span that radii leave.
@@ -160,7 +182,7 @@ def _root_and_tip(faces: Faces, frame: Frame, scale: float, margin: float) -> di
     inner, outer = min(map(np.max, radii)), max(map(np.min, radii))
     leave = margin * (outer - inner)
     radius = {"root": inner + leave, "tip": outer - leave}
-    named = {name.lower(): {"group": name} for name, _ in faces}
+    named = {name.lower(): {"group": name} for name in names}
     return {end: named.get(end, {"radius_mm": float(f"{r:.6g}")}) for end, r in radius.items()}
 
 

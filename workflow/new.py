@@ -51,6 +51,7 @@ NOT_READ = {  # values of a template of what a file does not say
     "material": "young_modulus_GPa: 113.8, poisson_ratio: 0.342, density_kg_m3: 4430",
     "whence": "<-- here Ti-6Al-4V",
     "mark": " <--",
+    "guess": " <--",  # of the unit, which a mesh without a material leaves open
     "patches": "",
     "looked": "",
 }
@@ -112,9 +113,10 @@ def _looked_at(source: Path, name: str) -> dict[str, str]:
     """What a mesh or a STEP file says of a blade, drawn; says why where that is nothing."""
     from workflow.first_look import draw, look  # slow imports, which other kinds do without
 
+    kind = SOURCES[source.suffix.lower()]
     try:
         with about(source):
-            found = look(source, SOURCES[source.suffix.lower()])
+            found = look(source, kind)
     except UserError as error:
         print(f"not read: {error}")
         return {}
@@ -129,6 +131,7 @@ def _looked_at(source: Path, name: str) -> dict[str, str]:
         "unit": found.source["unit"],
         "size": f"{found.size:.2g}",
         "mark": "",
+        "guess": "" if found.material or kind == "cad" else " <--",
         "looked": f"# As read from the file, and drawn in {picture}; {found.footprint}\n",
     }
 

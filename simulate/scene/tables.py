@@ -35,7 +35,7 @@ SHIFTS: Columns = {f"shift_{unit}": ("shift_um", 1e6 * metres) for unit, metres 
 Z: Columns = {"z_mm": ("z_mm", 1.0)}
 RADII: Columns = {"r_mm": ("r_mm", 1.0)}
 RADIANS, FEW = 6.3, 2  # last of more than so many angles, where they are not degrees
-WIDEST, CHANGE = 180.0, 0.05  # degrees, the widest step over a change of so much of the depths
+WIDEST, CHANGE = 180.0, 0.05  # degrees from the last angle to the first, over a change of depth
 POINTS = 8192  # angles around the casing at which a function is sampled
 LARGEST_DEPTH = 0.1  # m: a larger one is of another unit
 
@@ -241,14 +241,11 @@ class Table(Points):
                 key="theta_deg",
                 value=last,
             )
-        ends = np.append(self.theta_deg, first + 360.0)
-        steps, rises = np.diff(ends), np.diff(np.append(depth, depth[0]))
-        widest = int(np.where(abs(rises) > CHANGE * np.ptp(depth), steps, 0.0).argmax())
-        if steps[widest] > WIDEST:
+        rise = abs(depth[0] - depth[-1])
+        if first + 360.0 - last > WIDEST and rise > CHANGE * np.ptp(depth):
             raise SettingsError(
-                f"no depth between {ends[widest]:g} and {ends[widest + 1]:g} deg, where it changes "
-                f"by {abs(rises[widest]):g} m: give angles all around, 0 to 360, at most "
-                f"{WIDEST:g} apart",
+                f"no depth from {last:g} on to {first:g} deg, where it changes by {rise:g} m: give "
+                "angles all around, 0 to 360",
                 key="theta_deg",
             )
 

@@ -164,8 +164,8 @@ def test_casings_of_a_function_a_table_and_harmonics_are_equal(tmp_path):
         ("theta_deg,depth_mm\n0,1\n400,2\n", "should ascend, from 0"),
         ("theta_deg,depth_mm\n0,1\n360,2\n", "which are one place, differ"),
         ("theta_deg,depth_mm\n0,1\n3.14,2\n6.28,1\n", "are they radians?"),
-        ("theta_deg,depth_mm\n0,1\n90,2\n", "no depth between 90 and 360 deg"),
-        ("theta_deg,depth_mm\n100,1\n180,2\n270,2\n", "no depth between 270 and 460 deg"),
+        ("theta_deg,depth_mm\n0,1\n90,2\n", "no depth from 90 on to 0 deg"),
+        ("theta_deg,depth_mm\n100,1\n180,2\n270,2\n", "no depth from 270 on to 100 deg"),
         (None, "cannot be read"),
     ],
 )
@@ -179,6 +179,11 @@ def test_tables_that_are_refused(tmp_path, text, told):
 
 def test_a_narrow_bump_needs_no_angles_elsewhere():
     """The depth between its ends is the same all around."""
+    for flat in (
+        {"theta_deg": [0, 360], "depth_m": [1e-5, 1e-5]},
+        {"theta_deg": [0, 359.9, 360], "depth_m": [0, 5e-5, 0]},
+    ):
+        scene().but(casing={"table": flat, "harmonics": None})
     bump = {"theta_deg": [80, 90, 100], "depth_m": [1e-6, 4e-5, 0]}
     case = scene().but(casing={"table": bump, "harmonics": None})
     assert abs(case.casing.inward(np.array([4.0]), 1.0)[0]) < 1e-6

@@ -94,6 +94,7 @@ def test_a_run_without_a_temporary_folder_ends_in_one_line(tmp_path, monkeypatch
     done = subprocess.run(
         project.command("-n"), cwd=tmp_path, env=project.environment, capture_output=True, text=True
     )
-    assert done.returncode == 1 and "Traceback" not in done.stderr
-    assert "/none: cannot be written (No such file or directory)" in done.stderr
-    assert "or set TMPDIR" in done.stderr
+    said = done.stdout + done.stderr
+    assert done.returncode == 1 and "Traceback" not in said
+    assert "/none: cannot be written (No such file or directory)" in said
+    assert "or set TMPDIR" in said
