@@ -374,12 +374,14 @@ def test_files_of_gmsh_that_lack_something_are_named(how, words, tmp_path):
     refused(MeshError, read_mesh_file, tmp_path / "a.msh", match=words)
 
 
-@pytest.mark.parametrize("version", [2.2, 4.1])
-def test_a_surface_of_two_groups_is_in_both(version, tmp_path):
-    """meshio has one number for each surface of MSH 4.1."""
-    by_gmsh(tmp_path / "a.msh", MshFileVersion=version, also=[1, 3])
-    groups = {name: len(of) for name, of in read_mesh_file(tmp_path / "a.msh").face_groups.items()}
-    assert groups["also"] > groups["root"] > 0
+def test_a_surface_of_two_groups_is_in_both(tmp_path):
+    """meshio has one number for each surface of MSH 4.1; of MSH 2.2 it stands there twice."""
+    counts = []
+    for version in (2.2, 4.1):
+        by_gmsh(tmp_path / "a.msh", MshFileVersion=version, also=[1, 3])
+        groups = read_mesh_file(tmp_path / "a.msh").face_groups
+        counts.append({name: len(of) for name, of in groups.items() if ":" not in name})
+    assert counts[0] == counts[1] and counts[0]["also"] > counts[0]["root"] > 0
 
 
 def test_a_number_of_heat_is_no_material_of_a_blade(mesh, meshed):
