@@ -18,6 +18,7 @@ FAMILIES = {
     "hexahedron": "Hexahedron",
 }
 DEGREE = 4  # of the quadrature of our tetrahedra: exact for the tangent on straight-sided ones
+FLAT = 1e-7  # determinant of a flat cell, over the cubed size of it
 AT_ONCE = 20_000  # cells
 
 
@@ -64,5 +65,7 @@ def _determinants(
         ]
     )
     smallest, largest = found.min(axis=1), abs(found).max(axis=1)
-    ratios = np.divide(smallest, largest, out=np.zeros_like(largest), where=largest > 0)
+    size = np.ptp(points[cells], axis=1).max(axis=1)
+    solid = largest > FLAT * size**3
+    ratios = np.divide(smallest, largest, out=np.zeros_like(largest), where=solid)
     return Determinants(ratios, found @ weights)

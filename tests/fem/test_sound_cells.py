@@ -22,6 +22,7 @@ from geometry.mesh import build_mesh
 from geometry.project import MeshError, MeshWarning, check_settings
 from geometry.shape import session
 from geometry.split import Block, flat_corners_first, split
+from geometry.tetrahedra import EDGES
 
 TITANIUM = {"young_modulus_GPa": 113.8, "poisson_ratio": 0.342, "density_kg_m3": 4430}
 H_BLOCK, FAN, PLATE = (
@@ -100,6 +101,17 @@ def twisted(points):
     moved = points.copy()
     moved[np.argmin(abs(points - [240.0, 0, 0]).sum(axis=1)), 0] += 30.0
     return moved
+
+
+def test_a_flat_cell_has_no_ratio():
+    """To round-off, which leaves a volume of either sign; thin ones have one."""
+    corners = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0.3, 0.3, 1e-9]])
+    cells = np.arange(10)[None]
+    with session("test"):
+        for height, ratio in ((1e-9, 0.0), (1e-3, 1.0)):
+            corners[3, 2] = height
+            points = np.vstack([corners, corners[EDGES].mean(axis=1)])
+            assert of_tetrahedra(points, cells).ratios == pytest.approx(ratio)
 
 
 def at_a_quarter(points, cells):
