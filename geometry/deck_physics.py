@@ -2,7 +2,7 @@
 
 import re
 from collections import Counter
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from geometry.cards import Card
@@ -24,7 +24,7 @@ TAKEN = {  # cards that are read, and those that only frame or name others
 
 
 def physics_of(
-    cards: Iterable[Card],
+    cards: Sequence[Card],
     solids: Collection[int],
     element_sets: Mapping[str, Iterable[int]],
 ) -> Physics:
@@ -35,7 +35,6 @@ def physics_of(
     MeshError
         When a value of a material is no number.
     """
-    cards = list(cards)
     others = Counter(name for card in cards for name in _not_read(card))
     masses = Counter({name: count for name, count in others.items() if MASS.match(name)})
     defined = {material.name: material for material in _materials(cards)}

@@ -131,7 +131,7 @@ def test_a_middle_node_at_a_quarter_is_named_and_can_be_moved(tmp_path):
     place = ", ".join(f"{x:.1f}" for x in points[plain.cells[20, 16]])
     assert f"the middle node at {place} mm" in error.text and "0.25 of its edge" in error.text
     assert "straighten: true" in error.text and "repair" not in error.text
-    with pytest.warns(MeshWarning, match="straighten: 12 middle nodes|straighten: .* middle nodes"):
+    with pytest.warns(MeshWarning, match="straighten: .* middle nodes moved"):
         found = frequencies(tmp_path, "b.inp", straighten=True)
     np.testing.assert_allclose(found, BRICKS["a plate"][1], rtol=1e-2)
 
