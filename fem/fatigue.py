@@ -61,7 +61,7 @@ def largest_change(five: NDArray[np.float64]) -> NDArray[np.int64]:
     ``five`` (nodes, 5, times): its components of ``FIVE``. From five instants, at which one of them
     is largest, each goes on to that farthest from it, and so on. On a line or an ellipse no change
     is larger than that found; of motions of five frequencies less than one node in 100 has one that
-    is larger, by 2 % at most (``tests/fem/test_fatigue.py``).
+    is larger, by 2 % at most.
     """
     square, nodes = (five**2).sum(axis=1), np.arange(len(five))[:, None]
     at = five.swapaxes(1, 2)

@@ -10,10 +10,8 @@ import csv
 import re
 import shutil
 import sys
-from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from textwrap import fill
 from typing import Any, NamedTuple
 
 from pydantic import BaseModel
@@ -23,13 +21,19 @@ from geometry.given import GivenMatrices
 from geometry.project import UserError, command, read_json, write_whole
 from simulate.scene import Scene
 from simulate.sweeps.plain import numbers_of
-from workflow.markdown import WIDTH, change, table, two_digits
-from workflow.paper import long, report
-from workflow.paper.claims import COATING
-from workflow.paper.printed import SHIFTS
-from workflow.paper.verdict import HOLDS
-from workflow.study import interface, mesh, rotor37, stability, trade_table
-from workflow.summary import PeakRow, about, crossings_and_ends, over_gap, terminal
+from workflow.markdown import change, table, two_digits
+from workflow.paper import blocks
+from workflow.study import interface, mesh, rotor37, trade_table
+from workflow.study.stability import told as stability
+from workflow.summary import (
+    OVER_F1,
+    OVER_GAP,
+    about,
+    crossings_and_ends,
+    over_gap,
+    peaks,
+    terminal,
+)
 
 FOLDERS = ("geometry", "fem", "rom", "simulate", "workflow", "profiles", "tests")
 PAGES = (
@@ -39,30 +43,7 @@ PAGES = (
     *("tests/OTHERS.md", "tests/VERIFICATION.md", "CONTRIBUTING.md"),
 )
 
-OF_MODEL = 10  # claims on model and method, the first ones
-PARAGRAPH = """\
-Of the paper's {model} statements on its model and method, {held} hold here; of {silent} the
-paper gives no number. Of its {motion} statements on how the blade vibrates and the liner wears,
-{data} served to infer or set what it leaves open; of the other {predicted}, {holding} hold on the
-blade inferred, {in_kind} of them with other numbers than the paper's. Not found there: {differs};
-undecided, within the error of our runs: {undecided}."""
-OVER_F1 = ("Ω_c / f₁(0)", "Ω_c / crossing")
-OVER_GAP = ("‖Y‖ / gap", "worn depth / gap")
-
 type Pages = dict[str, str]  # text by path
-
-
-def coatings(summary: Mapping[str, Any]) -> str:
-    """Critical speeds, amplitudes and wear of both coatings at the two main engine orders."""
-    peaks = {
-        (scene["scene"], str(row["k"])): row for scene, row in _peaks(summary) if 1 in row["modes"]
-    }
-    rows = [
-        [COATING[part], k, *cells[:2], f"{paper:.3f}", *cells[2:]]
-        for (part, k), (paper, _) in SHIFTS.items()
-        if (row := peaks.get((f"paper-{part}", k))) and (cells := over_gap(row))
-    ]
-    return table(["coating", "k", *OVER_F1, "in the paper", *OVER_GAP], rows)
 
 
 def scenes(summary: Mapping[str, Any]) -> str:
@@ -76,7 +57,7 @@ def scenes(summary: Mapping[str, Any]) -> str:
             row["lobes"],
             row["word"],
         ]
-        for scene, row in _peaks(summary)
+        for scene, row in peaks(summary)
     ]
     head = ["scene", "k", "mode", *OVER_F1, *OVER_GAP, "lobes", "second runs"]
     facts = [
@@ -89,40 +70,6 @@ def scenes(summary: Mapping[str, Any]) -> str:
 def printed(summary: Mapping[str, Any]) -> str:
     """Lines that the terminal prints of the first scene."""
     return f"```\n{terminal({'scenes': summary['scenes'][:1], 'others': []}).strip()}\n```"
-
-
-def _peaks(summary: Mapping[str, Any]) -> Iterator[tuple[Mapping[str, Any], PeakRow]]:
-    """Each scene with each of its peaks along an engine order."""
-    return ((scene, row) for scene in summary["scenes"] for row in scene["rows"] if row["k"])
-
-
-def verdicts(judged: Sequence[Mapping[str, Any]]) -> str:
-    """Three sentences on the paper's claims for a reader who does not know them."""
-    model, motion = (
-        Counter(row["verdict"] for row in of) for of in (judged[:OF_MODEL], judged[OF_MODEL:])
-    )
-    held, holding = (sum(of[verdict] for verdict in HOLDS) for of in (model, motion))
-    data = motion["calibrated"]
-    return fill(
-        PARAGRAPH.format(
-            model=model.total(),
-            held=held,
-            silent=model["not comparable"],
-            motion=motion.total(),
-            data=data,
-            predicted=motion.total() - data,
-            holding=holding - data,
-            in_kind=motion["reproduced in kind"],
-            **{
-                verdict: ", ".join(
-                    f'"{row["says"]}"' for row in judged if row["verdict"] == verdict
-                )
-                or "none"
-                for verdict in ("differs", "undecided")
-            },
-        ),
-        WIDTH,
-    )
 
 
 def inputs(counts: Mapping[str, Any]) -> str:
@@ -193,20 +140,15 @@ def kept(text: str) -> str:
 TRADE = "results/experiments/trade/table.json"
 KEPT = "workflow/study/kept"  # last tables of studies that have left the project
 COMPUTED = (
-    ("found", "results/summary.json", coatings),
+    *blocks.COMPUTED,
     ("printed", "results/summary.json", printed),
-    ("verdicts", "results/paper/claims.json", verdicts),
     ("summary", "results/summary.json", scenes),
-    ("claims", "results/paper/claims.json", report.short),
-    ("conclusions", "results/paper/conclusions.md", str),
-    ("cost", "results/paper/cost.md", str),
-    ("long", "results/paper/long-times.json", long.table),
     ("mesh", "results/experiments/mesh/table.json", mesh.table),
     ("bases", f"{KEPT}/bases.csv", kept),
     ("rotor37", "results/experiments/frequencies/table.json", rotor37.prestress_table),
     ("levels", TRADE, trade_table.by_level),
     ("converges", "results/interface/interface.json", interface.results),
-    ("nodes", "results/interface/all-nodes.json", interface.all_nodes),
+    ("nodes", f"{KEPT}/nodes.csv", kept),
     ("requirements", TRADE, trade_table.requirements),
     ("rounds", TRADE, trade_table.fewer_rounds),
     ("speeds", TRADE, trade_table.fewer_speeds),

@@ -3,7 +3,7 @@
 One row for each peak, with the uncertainty of each number or that it is not known.
 """
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import chain, zip_longest
 from math import ceil, isfinite, nan
 from pathlib import Path
@@ -42,6 +42,8 @@ class Column(NamedTuple):
         return self.number(numbers[self.name]).shown if self.name in numbers else "-"
 
 
+OVER_F1 = ("Ω_c / f₁(0)", "Ω_c / crossing")  # heads of ``over_gap``
+OVER_GAP = ("‖Y‖ / gap", "worn depth / gap")
 COLUMNS = (  # of the numbers of ``sweeps.peak_results``
     Column("amplitude", "um", 1e6, "amplitude µm"),
     Column("displacement", "um", 1e6, "largest µm"),
@@ -556,6 +558,11 @@ def _seen(end: Mapping[str, Any]) -> str:
     gaps = " and ".join(f"{1e6 * gap:.1f}" for gap in end["gaps_m"])
     parts = lobes + [f"gap {gaps} µm at ξ = 1/16 and 15/16"] * bool(gaps)
     return ", ".join(parts + [end["status"]] * (end["status"] != "ok"))
+
+
+def peaks(summary: Mapping[str, Any]) -> Iterator[tuple[Mapping[str, Any], PeakRow]]:
+    """Each scene with each of its peaks along an engine order."""
+    return ((scene, row) for scene in summary["scenes"] for row in scene["rows"] if row["k"])
 
 
 def over_gap(row: PeakRow) -> list[str]:

@@ -15,8 +15,7 @@ mode and the engine orders rise and fall within tau; wear may change the motion 
     to say
 
 Revolutions in which the casing's distortion still changes do not count. The limits are those by
-which drawn scenes, run for ten more time constants on, refute few of the words
-(tests/simulate/test_trend.py).
+which drawn scenes, run for ten more time constants on, refute few of the words.
 
 A run that ends when it is steady is judged again and again, and may seem so once by chance. It
 ends where it is steady at two looks in turn, the second after half as many revolutions again.

@@ -16,7 +16,7 @@ from geometry.blade import EnrichedBasis
 from geometry.hats import middles
 from rom.reduce import reduce
 from simulate.errors.neighbours import EIGHTH, HALF, QUARTER, TWICE
-from tests.simulate.stability.cases import (
+from workflow.study.stability.cases import (
     BEFORE,
     FIRST_STRIP_DEG,
     draw,
@@ -24,8 +24,8 @@ from tests.simulate.stability.cases import (
     draw_long,
     now,
 )
-from tests.simulate.stability.matrix import End, Verdict, counts, judge_case
-from workflow.study.stability import extremes, sweeps
+from workflow.study.stability.matrix import End, Verdict, counts, judge_case
+from workflow.study.stability.told import extremes, sweeps
 
 CASES, CHANGING = 100, 110  # of which at least ten are right, flagged and refused
 JUDGED = [  # every so many of them

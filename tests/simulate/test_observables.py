@@ -9,9 +9,7 @@ from simulate.errors.signals import (
     amplitude,
     blurred,
     lobe_count,
-    mode_share,
     on_rods,
-    spectral_entropy,
     spectrum,
 )
 
@@ -72,54 +70,6 @@ def test_a_blurred_harmonic_keeps_its_phase_and_is_reduced_by_the_gaussian(nu):
     theta = 2 * np.pi * np.arange(found.size) / found.size
     expected = np.exp(-(0.6**2) / 2) * np.cos(6 * (theta - 0.3))
     np.testing.assert_allclose(found, expected, atol=1e-12)
-
-
-SAMPLES, ROUNDS = 64, 10
-TIME = np.arange(ROUNDS * SAMPLES) / SAMPLES
-
-
-def tone(order, amplitude=1.0):
-    return amplitude * np.sin(2 * np.pi * order * TIME + 0.3)
-
-
-@pytest.mark.parametrize(
-    ("u_r", "over_f1", "f1", "share"),
-    [
-        (5 + tone(3.6), 0.25, 0.9, 1),  # at f1
-        (tone(3.6), 0.25, 4.0, 0),
-        # by the square of the amplitudes
-        (tone(4, 2.0) + tone(7, 1.0), 0.3, 1.2, 4 / 5),
-        (tone(4, 2.0) + tone(7, 1.0), 0.3, 2.1, 1 / 5),
-        # f1 = 3.55 Omega: of the bins, a tenth of an order apart, those from 3.05 to 4.05
-        *(
-            (tone(k), 0.5, 3.55 * 0.5, share)
-            for k, share in ((3.0, 0), (3.1, 1), (4.0, 1), (4.1, 0))
-        ),
-    ],
-)
-def test_a_mode_has_the_share_of_the_band_of_half_an_order_to_either_side(u_r, over_f1, f1, share):
-    assert mode_share(u_r, SAMPLES, over_f1, f1) == pytest.approx(share, rel=1e-12, abs=1e-12)
-
-
-def test_a_blade_at_rest_has_neither_share_nor_entropy():
-    assert np.isnan(mode_share(np.zeros(640), SAMPLES, 0.3, 1.2))
-    assert np.isnan(spectral_entropy(np.zeros(10)))
-
-
-@pytest.mark.parametrize("equal", [1, 2, 8, 64])
-def test_entropy_of_equal_bins_is_the_logarithm_of_their_number(equal):
-    amplitudes = np.zeros(64)
-    amplitudes[:equal] = 3.0
-    assert spectral_entropy(amplitudes) == pytest.approx(np.log(equal) / np.log(64), abs=1e-12)
-    assert spectral_entropy(spectrum(tone(4))[1:]) == pytest.approx(0, abs=1e-12)
-
-
-def test_entropy_of_white_noise():
-    """Energies spread exponentially: 1 - (1 - gamma) / ln(bins); scatter measured 3e-4."""
-    bins = 50_000
-    amplitudes = spectrum(np.random.default_rng(3).normal(size=2 * bins))[1:]
-    expected = 1 - (1 - np.euler_gamma) / np.log(bins)
-    assert spectral_entropy(amplitudes) == pytest.approx(expected, abs=1e-3)
 
 
 def test_lobes_of_other_depths_and_widths_count_alike_and_their_tops_are_rounded():

@@ -6,7 +6,7 @@ from systems import Parameters, march, strips
 
 from simulate.marching import strip_stiffness
 from simulate.marching.stability import engagement, step_limit
-from tests.simulate.stability.map import engaged as always_engaged, spectral_radius
+from workflow.study.stability.map import engaged as always_engaged, spectral_radius
 
 UNEQUAL = np.array([1.0, 0.4, 1.7])  # stiffnesses of three strips
 ON_THE_CIRCLE = 1e-9  # round-off of eigenvalues of modulus 1; such a growth needs 1e9 steps

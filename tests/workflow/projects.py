@@ -20,18 +20,12 @@ import yaml
 
 ROOT = Path(__file__).parents[2]
 PACKAGES = ("workflow", "geometry", "fem", "rom", "simulate")
-COPIED = (
-    "Snakefile",
-    "pyproject.toml",
-    "profiles",
-    "tests/simulate/stability",
-    "tests/simulate/interface",
-    *PACKAGES,
-)
+COPIED = ("Snakefile", "pyproject.toml", "profiles", *PACKAGES)
 # Imported once, before any program starts
 LIBRARIES = ["snakemake.cli", "snakemake.notebook", "snakemake.report", "snakemake.workflow"]
 LIBRARIES += ["grimp", "h5py", "pandas", "pydantic", "scipy.sparse", "xarray"]
 MADE = {"results", ".snakemake", "__pycache__"}  # folders of what runs make
+TABLES = [ROOT / f"workflow/{of}/figures.yaml" for of in ("figures", "paper")]
 SPEEDS = [0.28, 0.3, 0.32, 0.34, 0.36, 0.38]  # about the crossing of f1 with eo(4)
 
 

@@ -3,7 +3,7 @@
 from math import log10
 
 import pytest
-from projects import ROOT
+from projects import ROOT, TABLES
 
 from simulate.errors.neighbours import GAP_CHANGE
 from simulate.errors.signals import LOBE_PROMINENCE
@@ -12,7 +12,7 @@ from simulate.scene.casing import COUNTS
 from simulate.sweeps import peak as peaks
 from workflow.figures import table
 
-ROWS = table.read(ROOT / "workflow/figures/figures.yaml")
+ROWS = table.read(*TABLES)
 TWIN = (f"one part in 10^{-log10(GAP_CHANGE):g}", f"over {100 * SENSITIVE_FROM:g} %")
 CAPTIONS = {
     "spectra-{scene}": (

@@ -11,9 +11,10 @@ from geometry.project import SettingsError, UserError, read_json
 from simulate.errors.observables import differences
 from simulate.sweeps.closing_in import sweep
 from tests.simulate.scenes import scene
-from workflow.experiment import engine, picture, table
+from workflow.experiment import engine, table
 from workflow.experiment.numbers import peaks
 from workflow.experiment.plan import PlannedRow, cases
+from workflow.figures import experiment as picture
 
 SCENE = scene(
     speeds={"over_f1": [0.33]},

@@ -33,7 +33,7 @@ from test_long_times import (
     cases,  # noqa: F401
     files as long_files,  # noqa: F401
 )
-from test_spectrogram import files as spectrogram_files  # noqa: F401
+from test_paper_signals import files as spectrogram_files  # noqa: F401
 from test_stability_studies import ENGAGED
 from tidy import faults
 
@@ -50,18 +50,12 @@ from simulate.sweeps.design_runs import FORMAT, save as save_table
 from simulate.sweeps.peak import Peak, along_order
 from simulate.sweeps.peak_results import asked, ends
 from workflow.figures import (
+    campbell,
     clearance,
-    coatings,
     designs,
-    fig02_blade,
-    fig03_campbell,
-    fig04_footprint,
-    fig05_laws,
-    fig09_modes,
     haigh,
     loads,
-    long_times,
-    resolution,
+    modes as modes_at_rest,
     spectra,
     stress,
     style,
@@ -70,8 +64,20 @@ from workflow.figures import (
 from workflow.figures.marks import speed_text
 from workflow.figures.response import Response
 from workflow.jobs.figure import origins, read
+from workflow.paper.figures import (
+    around,
+    blade as blade_and_patches,
+    coatings,
+    footprint,
+    laws,
+    long_times,
+    marked,
+    resolution,
+    spectrograms,
+)
 from workflow.paper.measure import coating
-from workflow.study import mesh, stability
+from workflow.study import mesh
+from workflow.study.stability import told as stability
 
 CROSSING_4 = 1 / np.sqrt(16 - STIFFENING)  # f1^2 = 1 + 5.6 Omega^2 meets k^2 Omega^2
 SPEEDS = np.round(np.arange(0.02, 0.401, 0.01), 12)
@@ -364,11 +370,11 @@ SCHEMES = ("central-difference", "piecewise-exact")
 PASSED = {scheme: {"wear": {"0.01": 1e-7, "0.1": None}} for scheme in SCHEMES}
 INTERMITTENT = [{"E": E, "limit": 5e-7} | PASSED for E in (1, 10)]
 FIGURES = {
-    "fig02": lambda get: fig02_blade.draw(*get("blade_files")),
-    "fig03": lambda get: fig03_campbell.draw(apart(get("rom")), get("check"), printed=True),
-    "fig04": lambda get: fig04_footprint.draw(*read(fig04_footprint, get("footprint_files"))),
-    "fig05": lambda get: fig05_laws.draw(),
-    "fig06": lambda get: clearance.shapes(*get("shapes")),
+    "fig02": lambda get: blade_and_patches.draw(*get("blade_files")),
+    "fig03": lambda get: marked.crossings(apart(get("rom")), get("check")),
+    "fig04": lambda get: footprint.draw(*read(footprint, get("footprint_files"))),
+    "fig05": lambda get: laws.draw(),
+    "fig06": lambda get: around.shapes(*get("shapes")),
     "fig07": lambda get: resolution.wear(*read(resolution, get("densities"), "wear")),
     "fig08": lambda get: resolution.displacement(
         *read(resolution, get("histories"), "displacement")
@@ -379,11 +385,11 @@ FIGURES = {
     "wear in rpm": lambda get: wear.over_speeds(get("of_user")),
     "fig11": lambda get: wear.over_speeds(get("seen")),
     "fig11 with twins": lambda get: wear.over_speeds(get("twinned")),
-    "fig12": lambda get: wear.profiles([get("seen"), named(get("twinned"), "paper-e10")]),
+    "fig12": lambda get: around.profiles([get("seen"), named(get("twinned"), "paper-e10")]),
     "fig13": lambda get: coatings.peaks(get("grid")),
     "fig13-k6": lambda get: coatings.peaks(get("grid"), order=6),
-    "fig16": lambda get: spectra.over_time(*read(spectra, get("spectrogram_files"), "over_time")),
-    "modes": lambda get: fig09_modes.draw(*get("modes")),
+    "fig16": lambda get: spectrograms.draw(*read(spectrograms, get("spectrogram_files"))),
+    "modes": lambda get: modes_at_rest.draw(*get("modes")),
     "gap": lambda get: clearance.gap(get("rest")),
     "haigh": lambda get: haigh.draw(*STRESSES),
     "loads": lambda get: loads.panels(get("two_loads"), F1, "mine"),
@@ -894,8 +900,8 @@ def test_figure_summary_and_claim_name_the_same_peaks(sweep, rom, seen, of_user)
 
 def test_an_operating_line_is_at_its_speed(seen, rom, check):
     of = {"lines": {"design": 20 * rom.f1}, "modes": 2, "orders": [4], "excited": {}}
-    campbell = fig03_campbell.draw(rom, check, operating=of)
-    for axes in (*campbell.axes[:2], spectra.over_speeds(seen, operating=of).axes[1]):
+    diagram = campbell.draw(rom, check, operating=of)
+    for axes in (*diagram.axes[:2], spectra.over_speeds(seen, operating=of).axes[1]):
         assert any(line.get_xdata() == pytest.approx([1 / 3, 1 / 3]) for line in axes.lines)
 
 
@@ -953,7 +959,7 @@ def test_speeds_without_a_sure_result_are_hatched(responses, module, lacks, band
 def test_a_profile_that_cannot_be_predicted_is_labelled(sweep, rom, twinned):
     """The wear of twins differs at 0.36, the peak is at 0.34."""
     moved = with_twins(sweep, rom, {"wear": twinned.sweep["departure"].values[:, 0]})
-    labels = [line.get_label() for line in wear.profiles([twinned, moved]).axes[0].lines[:2]]
+    labels = [line.get_label() for line in around.profiles([twinned, moved]).axes[0].lines[:2]]
     assert ["not predictable" in label for label in labels] == [False, True]
 
 
@@ -971,17 +977,19 @@ def test_a_scene_without_spectrum_gets_a_wear_map_without_peaks(sweep, rom):
 def test_clamped_nodes_do_not_move_and_mode_shapes_have_one_scale():
     mesh = np.array([[0, 0, 0], [1, 0, 0], [2, 0, 0]], dtype=float)
     moved = np.array([[[2.0] * 3, [1.0] * 3]])
-    spread = fig09_modes.spread(mesh, mesh[[2, 1]], moved)
+    spread = modes_at_rest.spread(mesh, mesh[[2, 1]], moved)
     np.testing.assert_array_equal(spread[0, :, 0], [0, 1, 2])
-    np.testing.assert_allclose(fig09_modes.unit_length(spread)[0, :, 0], spread[0, :, 0] / 12**0.5)
-    refused(ValueError, fig09_modes.spread, mesh, mesh[[2, 1]] + 0.1, moved, match="another mesh")
+    np.testing.assert_allclose(
+        modes_at_rest.unit_length(spread)[0, :, 0], spread[0, :, 0] / 12**0.5
+    )
+    refused(ValueError, modes_at_rest.spread, mesh, mesh[[2, 1]] + 0.1, moved, match="another mesh")
 
 
 def test_tip_rotation_is_one_for_rotation_and_zero_for_translation():
     square = np.array([[3, y, z] for y in (0, 1) for z in (0, 1)], dtype=float)
     turn = np.cross([1.0, 0, 0], square - square.mean(axis=0))
-    assert fig09_modes.rotation_share(square, turn) == pytest.approx(1)
-    assert fig09_modes.rotation_share(square, np.ones((4, 3))) == pytest.approx(0)
+    assert modes_at_rest.rotation_share(square, turn) == pytest.approx(1)
+    assert modes_at_rest.rotation_share(square, np.ones((4, 3))) == pytest.approx(0)
 
 
 def test_the_stress_is_that_of_the_worst_speed_with_the_summarys_number_at_its_place():

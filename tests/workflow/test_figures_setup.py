@@ -18,8 +18,9 @@ from simulate.scene import Contact, Harmonic, Profile, Scene
 from simulate.scene.laws.elastic import Elastic
 from simulate.scene.laws.plastic import Plastic
 from simulate.sweeps.dataset import load as load_sweep, save as save_sweep
-from workflow.figures import clearance, fig02_blade, fig04_footprint, views
+from workflow.figures import views
 from workflow.jobs.figure import read
+from workflow.paper.figures import around, blade as blade_and_patches, footprint
 from workflow.paper.footprint import FootprintError, at_deepest, into_fresh
 from workflow.paper.laws import slopes
 
@@ -42,21 +43,21 @@ def blade_files(coarse_mesh):
 
 @pytest.fixture(scope="module")
 def blade(blade_files):
-    return fig02_blade.tipped(*blade_files)
+    return blade_and_patches.tipped(*blade_files)
 
 
 @pytest.fixture(scope="module")
 def blade_panels(blade_files):
-    return fig02_blade.draw(*blade_files).axes
+    return blade_and_patches.draw(*blade_files).axes
 
 
 def test_pixels_of_points_agree_with_the_picture(blade):
     """The outermost points of the surface bound the picture, up to the outline 4 pixels wide."""
-    look = fig02_blade.PAINT, (0, 1), fig02_blade.LIGHT
+    look = blade_and_patches.PAINT, (0, 1), blade_and_patches.LIGHT
     zeros = np.zeros(blade.solid.n_points)
-    image = views.picture(blade.solid, 0, zeros, fig02_blade.VIEW, *look)
+    image = views.picture(blade.solid, 0, zeros, blade_and_patches.VIEW, *look)
     rows, columns = views.window([image])
-    pixels = views.pixels(blade.solid, fig02_blade.VIEW, blade.solid.points)
+    pixels = views.pixels(blade.solid, blade_and_patches.VIEW, blade.solid.points)
     low, high = pixels.min(axis=0), pixels.max(axis=0)
     np.testing.assert_allclose(low, [columns.start, rows.start], atol=3)
     np.testing.assert_allclose(high, [columns.stop - 1, rows.stop - 1], atol=3)
@@ -93,7 +94,7 @@ def test_the_leading_eighth_and_the_place_of_displacement_are_marked(blade, blad
     _, tip, over_chord = blade_panels
     eighth = tip.patches[0].get_xy()[:-1]
     xi = chord_fractions(blade, *eighth.T)
-    assert [xi.min(), xi.max()] == pytest.approx([fig02_blade.SLIVER, 1 / 8], abs=1e-3)
+    assert [xi.min(), xi.max()] == pytest.approx([blade_and_patches.SLIVER, 1 / 8], abs=1e-3)
     _, theta, z = blade.tip.outline.T
     outline = 1e3 * np.column_stack([z, blade.tip.radius * theta])  # mm
     sides = np.linspace(outline, np.roll(outline, -1, axis=0), 500).reshape(-1, 2)
@@ -150,7 +151,7 @@ def footprints(footprint_files):
 
 @pytest.fixture(scope="module")
 def footprint_panels(footprint_files):
-    return fig04_footprint.draw(*read(fig04_footprint, footprint_files)).axes
+    return footprint.draw(*read(footprint, footprint_files)).axes
 
 
 def bars(axes, look):
@@ -186,13 +187,13 @@ def test_rods_at_the_ends_are_loaded_over_their_covered_part(footprints, footpri
     """Three rods and what is left of 5 mm, alike at both ends to half a step; to scale, in mm."""
     rods, tip = footprints[0][:2]
     upper, _ = footprint_panels
-    engaged = bars(upper, fig04_footprint.ENGAGED)
+    engaged = bars(upper, footprint.ENGAGED)
     np.testing.assert_allclose(engaged[:, 2], 1e3 * PITCH * rods.part[rods.part > 0])
     assert engaged[:, 2].sum() == pytest.approx(5.0)
     assert engaged[:, 2] / (1e3 * PITCH) == pytest.approx([0.12, 1, 1, 1, 0.12], abs=0.03)
     np.testing.assert_allclose(engaged[:, 1], np.interp(0, *tip))  # pressed to the flat tip
     np.testing.assert_allclose(engaged[1:, 0], engaged[:-1, 0] + engaged[:-1, 2])
-    gone = bars(upper, fig04_footprint.WORN_AWAY)
+    gone = bars(upper, footprint.WORN_AWAY)
     from_deepest = 1e-3 * (gone[:, 0] + gone[:, 2] / 2) - rods.s[(rods.worn - rods.unworn).argmax()]
     depth = WORN * np.cos(from_deepest / RADIUS / 2) ** 16
     np.testing.assert_allclose(gone[:, 3] - gone[:, 1], depth, rtol=1e-6)
@@ -261,4 +262,4 @@ def shapes(paper, tmp_path_factory):
         run = xr.Dataset(status, {"speed_over_f1": [0.3]}, attrs_of(scene))
         save_sweep(run, folder / f"{name}.nc")
     files = SimpleNamespace(**{name: folder / f"{name}.nc" for name in scenes})
-    return read(clearance, files, "shapes")
+    return read(around, files, "shapes")

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from projects import ROOT
+from projects import TABLES
 from scenes import scene
 
 from rom.reduce import reduce
@@ -61,7 +61,7 @@ def test_without_a_torque_there_is_no_line_and_the_figure_says_why(loads_of, why
 
 
 def test_a_number_that_is_not_recorded_is_known_at_peaks_and_the_caption_names_its_key(loads_of):
-    caption = table.read(ROOT / "workflow/figures/figures.yaml")["loads-{blade}"].caption
+    caption = table.read(*TABLES)["loads-{blade}"].caption
     for name, variable, key in (
         ("force", "force_mean", "record.contact_force"),
         ("worn_volume", "wear", "record.wear"),

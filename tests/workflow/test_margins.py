@@ -16,7 +16,7 @@ from rom.check import RomCheck
 from simulate.scene import GROWING
 from simulate.sweeps.crossings import critical
 from workflow import margins, summary
-from workflow.figures import fig03_campbell
+from workflow.figures import campbell
 
 RPM = 60 * F1  # of a speed over f1(0)
 CROSSING = 1 / np.sqrt(16 - STIFFENING)  # of k = 4 with mode 1
@@ -149,7 +149,7 @@ def diagram(rom):
     check = RomCheck(
         speeds=speeds, full=full, reduced=full, between=np.nan, provenance=PROVENANCE, **known
     )
-    return fig03_campbell.draw(rom, check, operating=OPERATING)
+    return campbell.draw(rom, check, operating=OPERATING)
 
 
 def legend(rom):

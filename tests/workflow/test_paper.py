@@ -8,7 +8,7 @@ import pytest
 import xarray as xr
 
 from geometry.project import write_json
-from simulate.errors.signals import LOBE_BLUR, mode_share
+from simulate.errors.signals import LOBE_BLUR
 from simulate.scene import Scene
 from simulate.sweeps.closing_in import sweep
 from simulate.sweeps.peak import Peak
@@ -19,6 +19,7 @@ from workflow.paper.cost import cost
 from workflow.paper.laws import slopes_over_closed_form
 from workflow.paper.peaks import worn_at
 from workflow.paper.printed import E, K
+from workflow.paper.signals import mode_share
 
 WORKFLOW = Path(measure.__file__).parents[1]
 RODS, GAP = 360, 2e-5

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import yaml
 from made_sweeps import ROOT, save_runs
-from projects import make_project
+from projects import TABLES, make_project
 
 from geometry.blade import Blade
 from geometry.project import check_settings, read_json
@@ -18,16 +18,15 @@ from simulate.scene import Scene
 from simulate.scene.laws.plastic import Plastic
 from workflow.figures import table
 from workflow.jobs.figure import read
+from workflow.paper.blocks import coatings, verdicts
 from workflow.readme import (
     COMPUTED,
     PAGES,
     BlockError,
-    coatings,
     generated,
     read_pages,
     require_blocks,
     settings_table,
-    verdicts,
 )
 
 TEXTS = read_pages(ROOT)
@@ -182,7 +181,7 @@ def rules(tmp_path_factory):
     names = make_project(tmp_path_factory.mktemp("rules")).run("--list-rules").split()
     text = "\n".join(file.read_text() for file in (ROOT / "workflow/rules").glob("*.smk"))
     numbers = yaml.safe_load((ROOT / "workflow/rules/numbers.yaml").read_text())
-    figures = table.read(ROOT / "workflow/figures/figures.yaml")
+    figures = table.read(*TABLES)
     made = re.findall(r"\"(results/[^\"]+)\"", text)
     made += [file for row in numbers.values() for file in row["output"].values()]
     made += [f"{table.path_of(name)}.{suffix}" for name in figures for suffix in ("png", "pdf")]

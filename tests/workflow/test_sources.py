@@ -7,6 +7,7 @@ import subprocess
 import sys
 from importlib import import_module
 from inspect import Parameter, signature
+from pathlib import Path
 from textwrap import dedent
 
 import pytest
@@ -198,8 +199,7 @@ with get_context("fork").Pool(1, maxtasksperchild=1) as pool:
 def test_all_that_a_job_imports_is_among_its_sources(jobs):
     """Against Python itself, for the modules of all rules."""
     modules = sorted({module for job in jobs.values() for module in modules_of(job)})
-    packages = " ".join([*PACKAGES, "tests.simulate.stability", "tests.simulate.interface"])
-    command = [sys.executable, "-c", IMPORTING, packages, *modules]
+    command = [sys.executable, "-c", IMPORTING, " ".join(PACKAGES), *modules]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
     imported = json.loads(done.stdout)
     assert {*imported} == {*modules} and len(modules) > 50
@@ -207,6 +207,20 @@ def test_all_that_a_job_imports_is_among_its_sources(jobs):
         sources = sources_of(module)
         missing = [name for name in names if not {*sources_of(name)} <= {*sources}]
         assert module in names and not missing, module
+
+
+def test_imports_keep_the_contracts():
+    """Nothing imports the paper but the pages; no part of the workflow has a way back."""
+    command = [Path(sys.executable).parent / "lint-imports", "--no-cache"]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout
+
+
+def test_the_product_names_no_test():
+    files = [file for of in PACKAGES for file in (ROOT / of).rglob("*.*")]
+    code = [file for file in files if file.suffix in (".py", ".smk", ".yaml")]
+    named = [file for file in code if re.search(r"\btests(\.\w|/\S+\.py)", file.read_text())]
+    assert len(code) > 200 and not named
 
 
 APART = {  # module of a job, and what no change of may run it again

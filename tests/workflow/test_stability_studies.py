@@ -7,8 +7,7 @@ import pytest
 from runs import made
 
 from simulate.errors.observables import observables
-from tests.simulate.stability import steps
-from workflow.study import stability
+from workflow.study.stability import steps, told as stability
 
 ENGAGED = [
     {"E": E, "alone": 6e-7, "limit": 5e-7 / E, "predicted": 6e-7 / E, "failed": 6e-7 / E}

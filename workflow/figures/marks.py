@@ -3,7 +3,7 @@
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -31,6 +31,18 @@ NO_RESULT, NOT_PREDICTABLE, NO_CONTACT = "/////", "\\\\\\\\\\", "...."  # hatche
 SIZES = {"handlelength": 2.6, "handleheight": 1.3}  # of hatches in a legend
 LINE = 0.026  # of the width of axes over speeds, a line of small type
 POINTS = 161  # speeds of a curve of natural frequencies
+
+
+class Marks(NamedTuple):
+    """Values of another source, which a figure shows beside its own."""
+
+    label: str  # in the legend
+    # (lowest speed, highest speed, number) each, speeds over f1(0): the number is the engine order,
+    # or that of worn lobes
+    spans: Sequence[tuple[float, float, int]]
+
+
+NO_MARKS = Marks("", ())
 
 
 def speed_text(response: Response, peak: Peak) -> str:

@@ -1,4 +1,4 @@
-"""Spectra of the displacement at xi = 1/16: over the speed, and over the time at a peak.
+"""Spectra of the displacement at xi = 1/16 over the speed.
 
 And of the strain along a gauge over the speed, as a rig shows it; all gauges as a table.
 """
@@ -11,12 +11,9 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
-from matplotlib.ticker import MultipleLocator
-from numpy.typing import NDArray
 
 from geometry.blade import MODES, RPM
-from simulate.errors.signals import spectrogram, spectrum
-from simulate.sweeps.crossings import crossing
+from simulate.errors.signals import spectrum
 from simulate.sweeps.dataset import SPEED, Sweep
 from simulate.sweeps.peak import Peak, along_order
 from simulate.sweeps.plain import order_name
@@ -24,6 +21,8 @@ from workflow.figures import style, units
 from workflow.figures.marks import (
     LINE,
     NO_LINES,
+    NO_MARKS,
+    Marks,
     engine_order,
     frequencies_over_speed,
     hatch,
@@ -32,8 +31,6 @@ from workflow.figures.marks import (
     spread,
 )
 from workflow.figures.response import Response
-from workflow.paper.measure import HIGHEST, SPECTRUM_ROUNDS, disorder, share_of_mode_1
-from workflow.paper.printed import CRITICAL, ENGINE_ORDER, expected
 
 SHOWN = 2.5  # f / f1(0), highest in the map over the speed, if no peak is above
 DECADES = 3  # of the scale of amplitudes
@@ -47,28 +44,22 @@ LOOKS = (  # of the engine orders drawn as amplitudes over all speeds
 OTHERS = {"color": style.GREY, "linewidth": 0.8}  # further engine orders with a peak
 ROOM = 0.09  # of the width of the map, for the name of an engine order above it
 NEAR = 0.07  # of the critical speed, to both sides: where these are drawn
-SHADE = 0.25  # opacity of the paper's critical speeds
-MARKED = 7  # natural frequencies marked in spectra over the time
-WINDOW = 2  # revolutions, of a spectrum
-SLICES = 16  # spectra per revolution
-AMPLITUDES = 1e-4, 1.0  # gaps, ends of their scale
-TITLES = ("without tangential force", "with tangential force")
+SHADE = 0.25  # opacity of marks
 STRAIN = 1e-5  # in place of the gap, over which amplitudes of strain are drawn
 SHOWN_STRAIN = 5.0  # f / f1(0), highest in its map
-APART = 0.055  # least distance of two labels, over the axes' height
 
 
 @style.styled
 def over_speeds(
     sweep: Response,
-    printed: str | None = None,
+    marks: Marks = NO_MARKS,
     operating: Mapping[str, Any] = NO_LINES,
     label: str = "",
     highest: float | None = None,
 ) -> Figure:
     """Map of amplitude over frequency and speed; below, amplitude along the engine orders.
 
-    ``printed``: part of the paper whose critical speeds are marked, as of ``CRITICAL``;
+    ``marks``: critical speeds of another source;
     ``operating``: as of ``simulate.sweeps.crossings.critical``; ``label``: of the amplitude, if it
     is not that of u_r; ``highest``: frequency over f1(0) in the map, by default above all peaks.
     """
@@ -81,7 +72,7 @@ def over_speeds(
     highest = highest or max([SHOWN, *peaks])
     _map(top, sweep, limits, label or f"amplitude of $u_r$ at {sweep.place}", highest)
     _overlay(top, sweep)
-    _amplitudes(bottom, sweep, printed)
+    _amplitudes(bottom, sweep, marks)
     bottom.set_ylim(limits)
     hatch(drawn, (top, bottom), sweep, "spectrum")
     operating_lines(drawn, bottom, sweep.rom.f1, operating["lines"])
@@ -143,17 +134,17 @@ def _overlay(axes: Axes, response: Response) -> None:
     axes.legend(loc="upper left")
 
 
-def _amplitudes(axes: Axes, response: Response, printed: str | None) -> None:
+def _amplitudes(axes: Axes, response: Response, marks: Marks) -> None:
     """Draw the amplitude along engine orders over the speed, and label the peaks."""
     unit, second = response.units["length"]
-    curves = _looks(response, printed)
+    curves = _looks(response, marks)
     for k, (dashes, colour) in curves.items():
         along = unit.scale * along_order(response.sweep, k)
         axes.plot(response.speeds, along, linestyle=dashes, color=colour, label=f"EO {k}")
     _others(axes, response, curves)
-    paper = _printed(axes, response, printed, curves) if printed else []
+    shaded = _mark(axes, marks, curves)
     axes.legend(
-        handles=[*axes.get_legend_handles_labels()[0], *paper],
+        handles=[*axes.get_legend_handles_labels()[0], *shaded],
         loc="center left",
         bbox_to_anchor=(1.12, 0.5),
         handlelength=1.6,
@@ -167,16 +158,16 @@ def _amplitudes(axes: Axes, response: Response, printed: str | None) -> None:
         _name(axes, response, peak, across)
 
 
-def _looks(response: Response, printed: str | None) -> dict[int, tuple[Any, str]]:
+def _looks(response: Response, marks: Marks) -> dict[int, tuple[Any, str]]:
     """Dashes and colour of the engine orders drawn over all speeds.
 
-    Those of the paper's critical speeds, then those of the highest peaks, then those of the casing.
+    Those of the marks, then those of the highest peaks, then those of the casing.
     """
     peaks = sorted(response.peaks, key=lambda peak: -peak.amplitude)
     of_peaks = [peak.k for peak in peaks if peak.k % 1 == 0]
-    of_paper = CRITICAL[printed] if printed else ()
+    marked = [k for *_, k in marks.spans]
     of_casing = [k for k in response.orders if k in response.scene.casing.orders]
-    orders = dict.fromkeys([*of_paper, *of_peaks, *of_casing])
+    orders = dict.fromkeys([*marked, *of_peaks, *of_casing])
     return dict(sorted(zip(orders, LOOKS, strict=False)))
 
 
@@ -191,16 +182,14 @@ def _others(axes: Axes, response: Response, curves: Mapping[int, Any]) -> None:
             label = None
 
 
-def _printed(
-    axes: Axes, response: Response, part: str, curves: Mapping[int, tuple[Any, str]]
-) -> list[Patch]:
-    """Shade the paper's critical speeds in the colours of their orders; return their key."""
+def _mark(axes: Axes, marks: Marks, curves: Mapping[int, tuple[Any, str]]) -> list[Patch]:
+    """Shade the speeds of the marks in the colours of their orders; return their key."""
     across = axes.get_xaxis_transform()
-    for k in CRITICAL[part]:
-        low, high = expected(part, k, crossing(response.rom, k))
+    for low, high, k in marks.spans:
         axes.axvspan(low, high, color=curves[k][1], alpha=SHADE, linewidth=0, zorder=0)
         style.note(axes, ((low + high) / 2, 0), str(k), (0, 2), xycoords=across, ha="center")
-    return [Patch(color=style.GREY, alpha=SHADE, linewidth=0, label=r"$\Omega_c$, paper")]
+    key = Patch(color=style.GREY, alpha=SHADE, linewidth=0, label=marks.label)
+    return [key] if marks.spans else []
 
 
 def _name(axes: Axes, response: Response, peak: Peak, across: float) -> None:
@@ -259,73 +248,3 @@ def gauges_csv(sweep: Sweep) -> str:
         }
     table = xr.Dataset(columns).reset_coords(drop=True)
     return table.to_dataframe([SPEED, "gauge"]).to_csv(float_format="%.6g")
-
-
-@style.styled
-def over_time(without: Response, withit: Response) -> Figure:
-    """One panel for each: amplitude over time and frequency, natural frequencies at the right.
-
-    Both sweeps record the spectrum, and the history at xi = 1/16.
-    """
-    drawn, panels = style.subplots(style.DOUBLE, 5.4, 2, letters=True, sharex=True, sharey=True)
-    for axes, response, title in zip(panels, (without, withit), TITLES, strict=True):
-        axes.set(ylabel=style.FREQUENCY_LABEL, ylim=(0, HIGHEST))
-        peak = response.of_f1(ENGINE_ORDER)
-        if peak is None:
-            axes.set_title(f"{title}: no speed near the peak has a result")
-            continue
-        omega, _ = response.rom.modes(float(response.sweep["speed"][peak.index]))
-        modes = omega[:MARKED] / response.rom.omega1
-        axes.set_title(f"{title}, {_at_peak(response, peak)}")
-        _spectrogram(axes, response, peak)
-        _mark_modes(axes, modes)
-    panels[0].yaxis.set_major_locator(MultipleLocator(5))
-    panels[0].xaxis.set_major_locator(MultipleLocator(2))
-    panels[-1].set_xlabel(f"time (revolutions), middle of a window of {WINDOW} revolutions")
-    return drawn
-
-
-def _at_peak(response: Response, peak: Peak) -> str:
-    """Critical speed; energy share of mode 1 and entropy of the last revolutions' spectrum."""
-    samples = response.scene.record.samples_per_round
-    last = response.u_r[peak.index, -SPECTRUM_ROUNDS * samples :]
-    chance = ", sensitive" if response.status[peak.index] == "sensitive" else ""
-    return (
-        rf"$\Omega_c$ = {speed_text(response, peak)}{chance}"
-        f"\nlast {SPECTRUM_ROUNDS} revolutions: mode 1 has "
-        f"{100 * share_of_mode_1(last, samples, peak):.1f} % of the energy; "
-        f"entropy of the amplitudes {disorder(last, peak.Omega_c):.2f}"
-    )
-
-
-def _spectrogram(axes: Axes, response: Response, peak: Peak) -> None:
-    samples = response.scene.record.samples_per_round
-    time, orders, amplitude = spectrogram(response.u_r[peak.index], samples, WINDOW, SLICES)
-    frequency = orders * peak.Omega_c
-    shown = frequency <= HIGHEST
-    style.log_map(
-        axes,
-        style.edges(time),
-        style.edges(frequency[shown]),
-        amplitude[shown],
-        AMPLITUDES,
-        label=f"amplitude {style.OVER_GAP}",
-        extend="both",
-        pad=0.01,
-    )
-
-
-def _mark_modes(axes: Axes, modes: NDArray[np.float64]) -> None:
-    """Label the natural frequencies at the right edge, without overlap."""
-    labels = spread(modes / HIGHEST, APART)
-    for m, (frequency, label) in enumerate(zip(modes, labels, strict=True), start=1):
-        axes.annotate(
-            rf"$f_{m}$",
-            (1.0, frequency / HIGHEST),
-            (1.02, label),
-            xycoords="axes fraction",
-            textcoords="axes fraction",
-            arrowprops={"arrowstyle": "-", "linewidth": 0.6, "shrinkA": 0, "shrinkB": 0},
-            fontsize=7.5,
-            va="center",
-        )

@@ -1,4 +1,4 @@
-"""The table of figures, ``figures.yaml``: their names, files and needs."""
+"""Tables of figures, ``figures.yaml``: their names, files and needs."""
 
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from operator import attrgetter
@@ -48,25 +48,29 @@ class FigureSubject(NamedTuple):
     directions: str | None
 
 
-def read(path: str | Path) -> dict[str, FigureRow]:
-    """Rows of a table by name; one with a ``like`` has its missing keys from that row.
+def read(*paths: str | Path) -> dict[str, FigureRow]:
+    """Rows of some tables by name; one with a ``like`` has its missing keys from that row.
 
     Raises
     ------
     SettingsError
-        When the file is not valid; the message has file, row and key.
+        When a file is not valid; the message has file, row and key.
     """
-    raw = {
-        name: {**row, "part": part, "category": category}
+    rows = [
+        (path, name, {**row, "part": part, "category": category})
+        for path in paths
         for part, categories in read_mapping(path).items()
         for category, rows in categories.items()
         for name, row in rows.items()
-    }
-    for name, row in raw.items():
+    ]
+    raw = {name: row for _, name, row in rows}
+    for path, name, row in rows:
         if (like := row.get("like", name)) not in raw:
             raise SettingsError("no such row", key=f"{name}.like", value=like, file=path)
-    whole = {name: merged(raw[row.get("like", name)], row) for name, row in raw.items()}
-    return {name: check_settings(FigureRow, row, f"{path}: {name}") for name, row in whole.items()}
+    return {
+        name: check_settings(FigureRow, merged(raw[row.get("like", name)], row), f"{path}: {name}")
+        for path, name, row in rows
+    }
 
 
 def path_of(name: str) -> str:

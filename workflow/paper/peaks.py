@@ -11,9 +11,10 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from rom.model import Rom
-from simulate.errors.signals import between_lobes, leading_gap, leading_wear, lobe_count
+from simulate.errors.signals import leading_gap, leading_wear, lobe_count
 from simulate.marching import WITH_RESULT
 from simulate.sweeps.peak import peak_of
+from workflow.paper.signals import between_lobes
 
 DIAMETERS = 2  # of the paper's casing, which couple k to k - 2 and k + 2
 OF_PEAK = ("Omega_c", "over_crossing", "amplitude", "at_end", "clear")  # of ``Peak.plain``

@@ -29,7 +29,7 @@ rule experiment_block:
 
 rule experiment_picture:
     input:
-        code=code_of("workflow.jobs.figure", "workflow.experiment.picture"),
+        code=code_of("workflow.jobs.figure", "workflow.figures.experiment"),
         rows="results/experiments/{experiment}/table.json",
     output:
         png="results/experiments/{experiment}/picture.png",
@@ -39,7 +39,7 @@ rule experiment_picture:
     localrule: True
     params:
         run="workflow.jobs.figure:draw",
-        module="workflow.experiment.picture",
+        module="workflow.figures.experiment",
         given=lambda wildcards: {"picture": picture_of_experiment(wildcards)},
     message:
         "Picture of experiment {wildcards.experiment}"

@@ -1,4 +1,4 @@
-# A rule for each row of the table of figures, workflow/figures/figures.yaml.
+# A rule for each row of the tables of figures, workflow/figures/figures.yaml and that of the paper.
 for name, row in FIGURES.rows.items():
     path = table.path_of(name)
 

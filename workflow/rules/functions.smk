@@ -4,7 +4,7 @@ from workflow.experiment.plan import Experiment, cases
 from workflow.figures import table
 
 FIGURES = table.Figures(
-    read_or_fail(table.read, own_files(["workflow/figures/figures.yaml"])[0]),
+    read_or_fail(table.read, *own_files(f"workflow/{of}/figures.yaml" for of in ("figures", "paper"))),
     scenes=SCENES,
     delivered=DELIVERED,
     stressed=STRESSED,
@@ -117,11 +117,6 @@ def scene_of_stability(wildcards):
 def scene_of_interface(wildcards):
     """The scene at whose peak stresses are compared."""
     return SCENES["hand-peak"].model_dump(mode="json")
-
-
-def scenes_of_nodes(wildcards):
-    """Scenes of the comparison with contact at every node."""
-    return {name: SCENES[name].model_dump(mode="json") for name in ("paper-e1", "paper-e10")}
 
 
 def further_files():

@@ -32,7 +32,7 @@ def outputs(row):
 
 for name, row in NUMBERS.items():
     output = next(iter(row["output"].values()))
-    function = row["run"] if row["run"].startswith("tests.") else f"workflow.{row['run']}"
+    function = f"workflow.{row['run']}"
 
     rule:
         name:

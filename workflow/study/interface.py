@@ -23,12 +23,6 @@ BARS = {  # largest changes allowed from row to row, by observable
 }
 DEFAULT = "default"  # row whose difference from its twin is shown
 SHOWN = ("wear", "volume", "amplitude", "Omega_c", "force")  # in the tables
-AGAINST_NODES = {  # columns of the comparison with every node of the tip
-    "deepest": "deepest wear",
-    "volume": "volume",
-    "amplitude": "amplitude",
-    "wear": "wear, place by place",
-}
 MESHES = (  # each mesh with the next finer one, and whether their difference is judged
     ("reference-coarse", "reference", False),
     ("reference", "reference-fine", True),
@@ -58,7 +52,6 @@ def numbers(files: Any) -> Row:
         "between_meshes": between_meshes(models),
         "changes": read_json(files.table),
         "stress": stresses(models),
-        "all_nodes": read_json(files.all_nodes),
     }
 
 
@@ -107,7 +100,6 @@ def table(study: Row) -> str:
         "Compliance at the strips, between meshes": compliances(study),
         "Results": results(study),
         "Largest stress away from clamp and contact": stress(study),
-        "All nodes of the tip as interface": all_nodes(study["all_nodes"]),
     }
     return "\n\n".join(f"## {title}\n\n{text}" for title, text in parts.items()) + "\n"
 
@@ -171,26 +163,6 @@ def stress(study: Row) -> str:
         for r in study["stress"]
     ]
     return markdown.table(["change", "away from clamp and contact", "anywhere"], rows)
-
-
-def all_nodes(rows: list[Row]) -> str:
-    """Rows across the thickness and patches against every node of the tip: medians over speeds."""
-    models: dict[tuple, list[Row]] = {}
-    for row in rows:
-        models.setdefault((row["scene"], row["across"], row["patches"]), []).append(row)
-    lines = [
-        [
-            *map(str, model),
-            str(len(at_speeds)),
-            *(
-                markdown.percent(float(np.median([abs(row[key]) for row in at_speeds])))
-                for key in AGAINST_NODES
-            ),
-        ]
-        for model, at_speeds in models.items()
-    ]
-    head = ["scene", "rows across", "patches, strips", "speeds", *AGAINST_NODES.values()]
-    return markdown.table(head, lines)
 
 
 def _share(value: float | None, bar: float | None) -> str:

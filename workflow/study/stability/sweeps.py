@@ -1,4 +1,4 @@
-"""Sweeps of drawn scenes with the default share of checks: is each reported peak right, or flagged?
+"""Sweeps of drawn scenes with the default share of checks: each reported peak is right or flagged.
 
 Twelve speeds about the crossings of the first mode with EO 3 and 4. Peaks, or the largest response
 where there is none, above a hundredth of the gap, are compared with references at their speed
@@ -19,8 +19,8 @@ from simulate.marching import STATED, WITH_RESULT, SceneError
 from simulate.sweeps.over_speeds import as_sweep, at_speeds, check_sweep
 from simulate.sweeps.peak import along_order
 from simulate.sweeps.peak_results import asked
-from tests.simulate.stability.cases import Case, Drawing, draw, now
-from tests.simulate.stability.matrix import Ready, ready, references
+from workflow.study.stability.cases import Case, Drawing, draw, now
+from workflow.study.stability.matrix import Ready, ready, references
 
 SWEEPS = 100
 MIDDLE, SPEEDS = 0.31, {"first": 0.24, "last": 0.38, "count": 12}  # over f1(0)

@@ -4,10 +4,18 @@ All nodes of the tip are the interface of a reduced model of their own. Over eac
 sampled by the shape functions of the facets at places across the thickness, at equal z, both edges
 among them; between these the tip is linear. All places of a strip wear its one row of the liner
 within the step. The march is that of the tests' independent program, in plain NumPy.
+
+    ./run snakemake results/paper/matrices.h5
+    ./run python -m tests.verification.nodes
+
+compares patches with it on blade `paper`, and keeps the medians in ``KEPT``, from which the page of
+``fem`` has them.
 """
 
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Any, NamedTuple
+from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +27,7 @@ from fem.solid import Solid, read_solid
 from geometry.blade import Blade
 from geometry.hats import middles
 from geometry.interface import on_facets, tip_of
+from geometry.project import csv_text, write_whole
 from geometry.tip import cartesian, on_line
 from rom.model import Rom
 from rom.reduce import reduce
@@ -28,7 +37,7 @@ from simulate.errors.signals import on_rods
 from simulate.marching import march, prepare
 from simulate.scene import LEADING, Scene
 from tests.simulate.peer import piecewise_exact
-from workflow.study.trade import Row
+from workflow.markdown import percent
 
 STRIPS = 16  # of the reference
 PLACES = 7  # across the thickness
@@ -37,6 +46,11 @@ OVER_F1 = {  # speeds; of paper-e10 those of the peak of EO 4
     "paper-e1": (0.325, 0.33, 0.335, 0.34, 0.345, 0.35),
     "paper-e10": (0.355, 0.362, 0.37, 0.374, 0.378, 0.382, 0.39, 0.398),
 }
+HEAD = (
+    *("scene", "rows across", "patches, strips", "speeds"),
+    *("deepest wear", "volume", "amplitude", "wear, place by place"),
+)
+KEPT, COMMAND = "workflow/study/kept/nodes.csv", "./run python -m tests.verification.nodes"
 MODELS = tuple((patches, across) for across in (1, 2) for patches in (8, 16, 32))
 
 
@@ -49,6 +63,19 @@ class Reference(NamedTuple):
     sides: NDArray[np.float64]  # (2, strips), rad, angles of the edges
 
 
+class Row(NamedTuple):
+    """Relative differences of patches from every node of the tip, in a scene at a speed."""
+
+    scene: str
+    across: int
+    patches: int
+    nodes: int
+    deepest: float
+    volume: float
+    amplitude: float
+    wear: float  # in L2, place by place
+
+
 class Result(NamedTuple):
     """Outputs that are compared."""
 
@@ -58,25 +85,27 @@ class Result(NamedTuple):
     amplitude: float  # m, of xi = 1/16 in the last revolution
 
 
-def numbers(files: Any, blade: str, scenes: dict[str, Row]) -> list[Row]:
+def compared(
+    blade: Blade, matrices: str | Path, mesh: str | Path, scenes: Mapping[str, Scene]
+) -> list[Row]:
     """Errors of patches in one row and two across the thickness against contact at every node.
 
-    For the blade in the file ``blade``, from ``files.matrices`` and ``files.mesh``, in ``scenes``
-    at ``OVER_F1``; strips are as many as patches. The tip rubs the arc that it covers in all.
+    For a blade with its matrices and mesh, in ``scenes`` at ``OVER_F1``; strips are as many as
+    patches. The tip rubs the arc that it covers in all.
     """
-    settings, fom = Blade.load(blade), Matrices.load(files.matrices)
-    solid = read_solid(str(files.mesh), settings.material)
-    of_nodes, rows = reference(settings, fom, solid), []
-    models = {model: of_patches(settings, fom, solid, *model) for model in MODELS}
-    for name, values in scenes.items():
-        record = {"samples_per_round": values["record"]["samples_per_round"]}
-        case = Scene(**values).but(record=record, peaks=None, twin=False, liner__footprint_m=None)
+    fom, rows = Matrices.load(matrices), []
+    solid = read_solid(str(mesh), blade.material)
+    of_nodes = reference(blade, fom, solid)
+    models = {model: of_patches(blade, fom, solid, *model) for model in MODELS}
+    for name, scene in scenes.items():
+        record = {"samples_per_round": scene.record.samples_per_round}
+        case = scene.but(record=record, peaks=None, twin=False, liner__footprint_m=None)
         for over_f1 in OVER_F1[name]:
             true = by_nodes(case, of_nodes, over_f1)
             for (patches, across), rom in models.items():
                 found = by_patches(case.but(liner__strips=patches), rom, over_f1)
-                of = {"scene": name, "over_f1": over_f1, "patches": patches, "across": across}
-                rows.append(of | {"nodes": len(of_nodes.rom.xi)} | _changes(found, true))
+                changes = _changes(found, true)
+                rows.append(Row(name, across, patches, len(of_nodes.rom.xi), *changes))
     return rows
 
 
@@ -128,12 +157,34 @@ def _result(rom: Rom, scene: Scene, wear: NDArray[np.float64], u_r: NDArray[np.f
     return Result(float(wear.max()), by_share(wear, ends), volume, float(np.ptp(u_r)) / 2)
 
 
-def _changes(found: Result, true: Result) -> Row:
+def _changes(found: Result, true: Result) -> tuple[float, float, float, float]:
     """Relative differences; of wear the error in L2."""
     wear = on_rods(found.wear, true.wear.shape[1])
-    return {
-        "deepest": found.deepest / true.deepest - 1,
-        "wear": error(wear, true.wear),
-        "volume": found.volume / true.volume - 1,
-        "amplitude": found.amplitude / true.amplitude - 1,
-    }
+    return (
+        found.deepest / true.deepest - 1,
+        found.volume / true.volume - 1,
+        found.amplitude / true.amplitude - 1,
+        error(wear, true.wear),
+    )
+
+
+def table(rows: Sequence[Row]) -> list[list[str]]:
+    """The table of the page: medians over the speeds."""
+    models = dict.fromkeys(row[:3] for row in rows)
+    of = {model: [row[4:] for row in rows if row[:3] == model] for model in models}
+    return [
+        [*map(str, model), str(len(at)), *map(percent, np.median(np.abs(at), axis=0).tolist())]
+        for model, at in of.items()
+    ]
+
+
+def main() -> None:
+    """Compare on blade `paper`, and keep the table."""
+    scenes = {name: Scene.load(f"workflow/scenes/{name}.yaml") for name in OVER_F1}
+    blade, results = Blade.load("workflow/blades/paper.yaml"), Path("results/paper")
+    rows = compared(blade, results / "matrices.h5", results / "blade.msh", scenes)
+    write_whole(f"# {COMMAND}\n{csv_text([HEAD, *table(rows)])}", KEPT)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,4 +1,4 @@
-"""Fig. 16: spectrograms of runs with prescribed harmonics."""
+"""Signals of the claims, and Fig. 16: spectrograms of runs with prescribed harmonics."""
 
 from types import SimpleNamespace
 
@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 from made_sweeps import ROUNDS, SAMPLES, made_rom, save_runs
 
-from simulate.errors.signals import spectrogram
-from workflow.figures import spectra
-from workflow.figures.spectra import SLICES, WINDOW
+from simulate.errors.signals import spectrum
 from workflow.jobs.figure import read
+from workflow.paper.figures import spectrograms
+from workflow.paper.figures.spectrograms import SLICES, WINDOW
+from workflow.paper.signals import mode_share, spectral_entropy, spectrogram
 
 SPEED = 0.35
 TIME = np.arange(1, ROUNDS * SAMPLES + 1) / SAMPLES
@@ -54,8 +55,55 @@ def test_numbers_are_of_the_last_ten_rounds(tmp_path, files):
     spectrum[1, 40] = 1.0
     speeds = [0.33, SPEED, 0.37]
     files.without = save_runs(tmp_path / "c.nc", speeds, u_r=[u_r] * 3, spectrum=spectrum)
-    first = spectra.over_time(*read(spectra, files, "over_time")).axes[0]
+    first = spectrograms.draw(*read(spectrograms, files)).axes[0]
     bins = 10 * SAMPLES // 2  # all: 20 f1(0) lies beyond
     # energies 9 to 1, so amplitudes 3 to 1
     entropy = -(0.75 * np.log(0.75) + 0.25 * np.log(0.25)) / np.log(bins)
     assert f"90.0 % of the energy; entropy of the amplitudes {entropy:.2f}" in first.get_title()
+
+
+TEN_ROUNDS = np.arange(640) / 64
+
+
+def tone(order, amplitude=1.0):
+    return amplitude * np.sin(2 * np.pi * order * TEN_ROUNDS + 0.3)
+
+
+@pytest.mark.parametrize(
+    ("u_r", "over_f1", "f1", "share"),
+    [
+        (5 + tone(3.6), 0.25, 0.9, 1),  # at f1
+        (tone(3.6), 0.25, 4.0, 0),
+        # by the square of the amplitudes
+        (tone(4, 2.0) + tone(7, 1.0), 0.3, 1.2, 4 / 5),
+        (tone(4, 2.0) + tone(7, 1.0), 0.3, 2.1, 1 / 5),
+        # f1 = 3.55 Omega: of the bins, a tenth of an order apart, those from 3.05 to 4.05
+        *(
+            (tone(k), 0.5, 3.55 * 0.5, share)
+            for k, share in ((3.0, 0), (3.1, 1), (4.0, 1), (4.1, 0))
+        ),
+    ],
+)
+def test_a_mode_has_the_share_of_the_band_of_half_an_order_to_either_side(u_r, over_f1, f1, share):
+    assert mode_share(u_r, 64, over_f1, f1) == pytest.approx(share, rel=1e-12, abs=1e-12)
+
+
+def test_a_blade_at_rest_has_neither_share_nor_entropy():
+    assert np.isnan(mode_share(np.zeros(640), 64, 0.3, 1.2))
+    assert np.isnan(spectral_entropy(np.zeros(10)))
+
+
+@pytest.mark.parametrize("equal", [1, 2, 8, 64])
+def test_entropy_of_equal_bins_is_the_logarithm_of_their_number(equal):
+    amplitudes = np.zeros(64)
+    amplitudes[:equal] = 3.0
+    assert spectral_entropy(amplitudes) == pytest.approx(np.log(equal) / np.log(64), abs=1e-12)
+    assert spectral_entropy(spectrum(tone(4))[1:]) == pytest.approx(0, abs=1e-12)
+
+
+def test_entropy_of_white_noise():
+    """Energies spread exponentially: 1 - (1 - gamma) / ln(bins); scatter measured 3e-4."""
+    bins = 50_000
+    amplitudes = spectrum(np.random.default_rng(3).normal(size=2 * bins))[1:]
+    expected = 1 - (1 - np.euler_gamma) / np.log(bins)
+    assert spectral_entropy(amplitudes) == pytest.approx(expected, abs=1e-3)

@@ -1,4 +1,4 @@
-"""Fig. 3: Campbell diagram, reduced model (lines) and full model (markers)."""
+"""Campbell diagram, reduced model (lines) and full model (markers)."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -15,8 +15,13 @@ from simulate.sweeps.crossings import BEYOND, critical
 from simulate.sweeps.plain import CriticalSpeed
 from workflow import margins
 from workflow.figures import style, units
-from workflow.figures.marks import engine_order, frequencies_over_speed, operating_lines
-from workflow.paper.printed import CROSSING, HALF_DIGIT
+from workflow.figures.marks import (
+    NO_MARKS,
+    Marks,
+    engine_order,
+    frequencies_over_speed,
+    operating_lines,
+)
 
 SHOWN = 7  # modes, compared by the paper
 PLAIN: Mapping[str, Any] = {"lines": {}, "modes": MODES, "orders": ORDERS, "excited": {}}
@@ -28,16 +33,16 @@ BEHIND = {"facecolor": "white", "edgecolor": "none", "pad": 0.6}
 
 @style.styled
 def draw(
-    rom: Rom, check: RomCheck, printed: bool = False, operating: Mapping[str, Any] = PLAIN
+    rom: Rom, check: RomCheck, marks: Marks = NO_MARKS, operating: Mapping[str, Any] = PLAIN
 ) -> Figure:
     """Mode 1 with engine orders that cross it, and all modes with those that cross others.
 
     Marked are the crossings that tables show: near operating speeds, or of orders that the casings
     excite; where there is neither those of mode 1 at the highest speeds.
 
-    ``printed``: whether the crossings that the paper prints are marked; ``operating``: as of
-    ``simulate.sweeps.crossings.critical``. With operating speeds the diagram goes on above the top
-    speed of the model, and says below which crossings are next to them.
+    ``marks``: crossings of another source; speeds are then shown over f1(0) first. ``operating``:
+    as of ``simulate.sweeps.crossings.critical``. With operating speeds the diagram goes on above
+    the top speed of the model, and says below which crossings are next to them.
     """
     drawn, (first, every) = style.subplots(
         style.DOUBLE, 3.2, 1, 2, letters=True, width_ratios=(1.25, 1)
@@ -53,13 +58,13 @@ def draw(
     # the error of the mesh is not known
     rows: list[margins.Margin] = [{**row, "rpm_error": None} for row in margins.rows(campbell)]
     shown = margins.near(rows) or [row for row in rows if row["modes"] == [1]][-FASTEST:]
-    both = units.both(printed, rom.f1)
+    both = units.both(bool(marks.spans), rom.f1)
     for axes, first_mode in ((first, True), (every, False)):
         marked = [crossing for crossing in shown if (crossing["modes"] == [1]) == first_mode]
         _crossings(axes, marked, rom.f1, both["speed"][0])
         units.show(axes.xaxis, style.below, *both["speed"])
-    if printed:
-        _printed(first)
+    if marks.spans:
+        _mark(first, marks)
     texts = {name: "\n".join(margins.nearest(campbell, rows, name)) for name in lines}
     operating_lines(drawn, first, rom.f1, lines, texts)
     operating_lines(None, every, rom.f1, lines)
@@ -136,17 +141,18 @@ def _crossings(
         )
 
 
-def _printed(axes: Axes) -> None:
-    """Mark the crossings that the paper prints, with half a digit to both sides."""
-    orders, speeds = np.array([*CROSSING.items()]).T
+def _mark(axes: Axes, marks: Marks) -> None:
+    """Mark the crossings of another source from their lowest to their highest speed."""
+    low, high, orders = np.array(marks.spans).T
+    speeds = (low + high) / 2
     axes.errorbar(
         speeds,
         orders * speeds,
-        xerr=HALF_DIGIT,
+        xerr=(high - low) / 2,
         fmt="none",
         ecolor=style.BLUE,
         elinewidth=2.0,
-        label="crossings in the paper",
+        label=marks.label,
     )
 
 

@@ -39,7 +39,7 @@ from simulate.marching import (
     prepare,
 )
 from simulate.scene import CentralDifference, PiecewiseExact, Scene
-from tests.simulate.stability.cases import EXACT, EXPLICIT, SAMPLES, Case, draw, now
+from workflow.study.stability.cases import EXACT, EXPLICIT, SAMPLES, Case, draw, now
 
 CASES = 1000
 FINE = 0.1  # largest step of the references over the limit

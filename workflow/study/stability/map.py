@@ -20,7 +20,7 @@ from simulate.marching import Setup, central_difference, prepare, strip_stiffnes
 from simulate.marching.kernel import RUNNING, Recorded, at_start, march_round
 from simulate.marching.modal import padded_rows
 from simulate.scene import Scene
-from tests.simulate.stability import steps
+from workflow.study.stability import steps
 
 MODULI = np.logspace(-2, 3, 11)  # E of the engaged liner, in the scene's unit
 SPEED = 0.33  # over f1(0)

@@ -1,1 +1,0 @@
-"""An independent model of contact: at every node of the tip, in the place of patches and strips."""

@@ -1,0 +1,1 @@
+"""Figures of the paper, under its numbers."""
