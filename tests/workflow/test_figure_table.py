@@ -81,7 +81,7 @@ def test_files_are_those_of_the_scenes():
 def test_a_figure_marks_the_operating_speeds_of_its_blade():
     of = figures_of("soft", "paper-e1")
     assert of.given("spectra-{scene}", {"scene": "soft"}) == {"operating": {"design": 9e3}}
-    assert of.given("fig10a", {}) == {"printed": "e1"}
+    assert of.given("fig10a", {}) == {"part": "e1"}
     assert of.caption("fig10a", {}).endswith("the crossing of this blade.")
 
 
