@@ -6,9 +6,9 @@ from scipy.spatial import cKDTree
 
 from fem.fields import away, cells_of, grid_of
 from fem.solid import Solid
+from geometry.base import SettingsError
 from geometry.blade import Stress
 from geometry.facets import shape_functions
-from geometry.project import SettingsError
 from geometry.tetrahedra import exterior
 
 PLACES = 31  # along an edge of a facet, at which distances are taken

@@ -6,12 +6,12 @@ from pathlib import Path
 import numpy as np
 
 from fem.cholesky import Cholesky
-from fem.interface import interface_of
+from fem.interface_operator import interface_of
 from fem.matrices import CODE, Constants, Matrices, Prestressed
 from fem.prestress import linear_states, mass, nonlinear_states
 from fem.solid import Solid, read_solid
+from geometry.base import Provenance, code_hash, file_hash
 from geometry.blade import Blade
-from geometry.project import Provenance, code_hash, file_hash
 from geometry.shape import source_of
 
 STATES = {"nonlinear": nonlinear_states, "linear": linear_states}
@@ -46,7 +46,7 @@ def over_speeds(
     ------
     fem.prestress.EquilibriumError
         When a static equilibrium is not found.
-    geometry.project.errors.MeshError
+    geometry.base.errors.MeshError
         When the facets of the tip do not allow the interface.
     """
     solid = solid or read_solid(str(mesh_path), blade.material)

@@ -10,9 +10,9 @@ from scipy.optimize import root
 from fem.cholesky import Cholesky
 from fem.prestress import nonlinear_states
 from fem.solid import Solid, read_solid
-from geometry.blade import RPM, Blade
+from geometry.base import RPM, MeshError
+from geometry.blade import Blade
 from geometry.mesh import MeshSummary, build_mesh, write_moved
-from geometry.project import MeshError
 
 CLOSED = 1e-7  # of the blade's size: largest distance between the shape given and that found
 ROUNDS = 30  # most equilibria; six to nine are needed

@@ -7,14 +7,14 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_matrix, eye_array, kron
 
-from fem.interface import on_patches
+from fem.interface_operator import on_patches
 from fem.matrix_files import FileMatrix
+from geometry.base import MeshError, about
 from geometry.blade import MeshFile
 from geometry.file_physics import UNITS
 from geometry.frame import rotation, to_blade
-from geometry.mesh_faces import root_and_tip
-from geometry.mesh_file import read_mesh_file
-from geometry.project import MeshError, about
+from geometry.readers import read_mesh_file
+from geometry.root_and_tip import root_and_tip
 from geometry.tetrahedra import exterior
 
 
@@ -80,7 +80,7 @@ def deck_of(source: MeshFile, folder: Path) -> Deck:
 
     Raises
     ------
-    geometry.project.errors.MeshError
+    geometry.base.errors.MeshError
         When it cannot be read, or has no root or tip.
     """
     with about(folder / source.file):

@@ -22,8 +22,8 @@ import rainflow
 from numpy.linalg import norm
 from numpy.typing import NDArray
 
+from geometry.base import known
 from geometry.blade import Fatigue
-from geometry.project import known
 
 MEGA = 1e6
 TURNS = 3  # from an instant to the farthest one

@@ -26,11 +26,11 @@ from dolfinx.plot import vtk_mesh
 
 from fem.fatigue import von_mises
 from fem.solid import Solid, green_lagrange, read_solid, small_strain
+from geometry.base import SettingsError, write_whole
 from geometry.blade import Blade
 from geometry.facets import normals, shape_functions
 from geometry.frame import axes
 from geometry.hats import middles
-from geometry.project import SettingsError, write_whole
 from geometry.tetrahedra import exterior
 
 AWAY = 0.05  # of the blade's length: distance from clamp and tip at which the stress has converged
@@ -202,7 +202,7 @@ class Fields:
 
         Raises
         ------
-        geometry.project.errors.WriteError
+        geometry.base.errors.WriteError
             When it cannot be written.
         """
         data = {
@@ -234,7 +234,7 @@ def save_vtu(
 
     Raises
     ------
-    geometry.project.errors.WriteError
+    geometry.base.errors.WriteError
         When it cannot be written.
     """
     grid = pv.UnstructuredGrid({pv.CellType.QUADRATIC_TETRA: cells}, points)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_matrix
 
-from geometry.project import Provenance
+from geometry.base import Provenance
 from geometry.stored import Stored, frozen, stored
 from geometry.taper import slope_of_tip
 

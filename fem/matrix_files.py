@@ -14,13 +14,13 @@ from numpy.typing import NDArray
 from scipy.io import mminfo, mmread
 from scipy.sparse import csr_matrix, diags, load_npz
 
-from geometry.given import Check, failed
-from geometry.project import UserError, about, number, read_text, require_file
+from geometry.base import UserError, about, number, read_text, require_file
+from geometry.elsewhere import Check, failed
 
 DIRECTIONS = 100  # more than a node has
 
 
-class GivenError(UserError):
+class ElsewhereError(UserError):
     """A file of given matrices that cannot be read or does not fit the others."""
 
 
@@ -36,11 +36,11 @@ def require(path: Path, *checks: Check) -> None:
 
     Raises
     ------
-    GivenError
+    ElsewhereError
         When there is one.
     """
     if faults := failed(*checks):
-        raise GivenError(faults[0], file=path)
+        raise ElsewhereError(faults[0], file=path)
 
 
 def read_matrix(path: Path, letter: str) -> FileMatrix:
@@ -48,7 +48,7 @@ def read_matrix(path: Path, letter: str) -> FileMatrix:
 
     Raises
     ------
-    GivenError
+    ElsewhereError
         When it cannot be read whole, or holds other values than finite real numbers.
     """
     require(
@@ -59,14 +59,14 @@ def read_matrix(path: Path, letter: str) -> FileMatrix:
             "or reduce by one basis at all speeds (`reduced_model`)",
         ),
     )
-    with about(path, GivenError):
+    with about(path, ElsewhereError):
         require_file(path, READERS)
     try:
         matrix = READERS[path.suffix.lower()](path, letter)
-    except GivenError as error:
+    except ElsewhereError as error:
         raise error.within(path) from None
     except Exception as error:  # readers raise various exceptions for damaged files
-        raise GivenError(
+        raise ElsewhereError(
             f"cannot be read as {path.suffix} ({error!r}): is it cut short?", file=path
         ) from None
     require(
@@ -135,7 +135,7 @@ def _market(path: Path) -> csr_matrix:
 def _calculix(path: Path, letter: str) -> FileMatrix:
     """One triangle; the rows are named in the file .dof of the same job, as 12.3."""
     dof = path.with_suffix(".dof")
-    with about(dof, GivenError):
+    with about(dof, ElsewhereError):
         names = read_text(dof, most=None).split()
     columns = _columns(path)
     require(path, (len(columns) == 3, f"{len(columns)} numbers a line, needs 3"))
@@ -182,7 +182,7 @@ def _full(path: Path, letter: str) -> FileMatrix:
     try:
         from ansys.mapdl.reader import read_binary  # pyright: ignore[reportMissingImports]  optional
     except ImportError:
-        raise GivenError("needs ansys-mapdl-reader: see fem/matrices.md", file=path) from None
+        raise ElsewhereError("needs ansys-mapdl-reader: see fem/matrices.md", file=path) from None
     rows, K, M = read_binary(str(path)).load_km(sort=False)
     return FileMatrix(_whole(csr_matrix({"M": M, "K": K}[letter])), np.add(rows, [0, 1]))
 
@@ -218,7 +218,7 @@ def _placed(
     """A matrix of ``values`` (n,) in rows ``i`` and columns ``j``, from 1."""
     places = np.array([i, j])
     if places.min() < 1 or np.any(places != np.round(places)):
-        raise GivenError(
+        raise ElsewhereError(
             f"an entry is in row or column {places.min():g}: they are whole numbers, counted from 1"
         )
     return csr_matrix((values, places.astype(int) - 1), shape)
@@ -238,7 +238,7 @@ def _whole(A: csr_matrix, lines: int = 0) -> csr_matrix:
     Entries of one place are summed in ``A``; so many ``lines`` must each have a place of its own.
     """
     if A.nnz < lines:
-        raise GivenError("names an entry twice: one matrix a file, of one step or subcase")
+        raise ElsewhereError("names an entry twice: one matrix a file, of one step or subcase")
     places = A.astype(bool)
     both = places.multiply(places.T).nnz - np.count_nonzero(A.diagonal())
     return A if both else csr_matrix(A + A.T - diags(A.diagonal()))

@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 
 from fem.fatigue import damage, numbers, reserve, uniaxial
 from fem.worst_node import cycles
+from geometry.base import known
 from geometry.blade import Fatigue
-from geometry.project import known
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from dolfinx.fem.petsc import LinearProblem, NonlinearProblem
 from fem.cholesky import Cholesky
 from fem.matrices import Prestressed
 from fem.solid import Solid, SymmetricForm, green_lagrange, small_strain
-from geometry.project import UserError
+from geometry.base import UserError
 
 DIRECT = {"ksp_type": "preonly", "pc_type": "cholesky", "pc_factor_mat_solver_type": "mumps"}
 NEWTON = {"snes_type": "newtonls", "snes_linesearch_type": "none", "snes_max_it": 25}

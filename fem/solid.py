@@ -14,9 +14,9 @@ from dolfinx import fem
 from dolfinx.io.gmsh import model_to_mesh
 from dolfinx.mesh import Mesh
 
+from geometry.base import known
 from geometry.blade import Material
 from geometry.jacobians import DEGREE
-from geometry.project import known
 from geometry.shape import merge, session
 
 BASIX_TO_VTK = np.array([0, 1, 2, 5, 3, 4])  # basix: the middles opposite the corners 0, 1, 2
@@ -118,7 +118,7 @@ def read_solid(mesh_path: str, material: Material) -> Solid:
 
     Raises
     ------
-    geometry.project.provenance.ProvenanceError
+    geometry.base.provenance.ProvenanceError
         When the file is no mesh, or not as it was written.
     """
     with session("make the mesh anew"):

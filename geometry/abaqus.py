@@ -12,10 +12,10 @@ from pathlib import Path
 
 import numpy as np
 
+from geometry.base import MeshError, number, shown
 from geometry.cards import Card, read_cards
 from geometry.deck_physics import physics_of
 from geometry.file_mesh import FileMesh, Solids, as_tetrahedra
-from geometry.project import MeshError, number, shown
 from geometry.split import KINDS, NODES
 
 SOLID = re.compile(r"(?:C3D|CTETRA|CHEXA|CPENTA|CPYRAM)(\d+)")

@@ -18,9 +18,9 @@ from mapdl_archive import Archive
 from mapdl_archive.elements import ETYPE_MAP
 from numpy.typing import NDArray
 
+from geometry.base import MeshError, number
 from geometry.file_mesh import FileMesh, Solids, as_tetrahedra, require_all
 from geometry.file_physics import FileMaterial, Physics, agree
-from geometry.project import MeshError, number
 
 FACE, BRICK, TETRAHEDRON = 3, 4, 5  # values of ETYPE_MAP, by the number of an element type
 # the type that only meshes, and what it is by its KEYOPT(1)

@@ -1,14 +1,13 @@
 """Settings of a blade file: geometry, mesh, material, interface and reduction of a blade."""
 
-from math import inf, pi
+from math import inf
 from pathlib import Path, PurePath
 from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Discriminator, Field, Tag
 
-from geometry.project import Settings, SettingsError, SettingsFile, checked, file_hash, one_of
+from geometry.base import RPM, Settings, SettingsError, SettingsFile, checked, file_hash, one_of
 
-RPM = 30 / pi  # of 1 rad/s
 RPM_PER_HZ = 60.0
 Length = Annotated[float, Field(gt=0, le=1e4)]
 MOST_THICKNESS = 0.4  # of the chord; blades of compressors have up to 0.15, of turbines 0.3
@@ -191,11 +190,15 @@ class Material(Settings):
         return self.young_modulus_GPa * 1e9
 
 
-OF_POINTS = ("nodes", "along", "points_mm")  # keys of an interface of points
+OF_POINTS = ("nodes", "points_mm")  # keys of an interface of points
 
 
 class Interface(Settings):
     """Interface with the casing: patches of the tip, or points with the basis `paper`."""
+
+    replaced: ClassVar = {
+        "along": "points are on the camber line: give others, as on the pressure side, as points_mm"
+    }
 
     patches: int = Field(
         default=16,
@@ -214,21 +217,18 @@ class Interface(Settings):
         le=64,
         description="Basis `paper` only: number of points, in the middles of equal chord lengths",
     )
-    along: Literal["camber-line", "pressure-side"] = Field(
-        default="camber-line", description="Basis `paper` only: line of the tip with the points"
-    )
     points_mm: tuple[tuple[float, float, float], ...] | None = Field(
         default=None,
         min_length=2,
         max_length=64,
-        description="Basis `paper` only, instead of nodes and along: coordinates of the points in "
+        description="Basis `paper` only, instead of nodes: coordinates of the points in "
         "the blade's frame, leading edge first",
     )
 
     @checked
     def _rule_or_points(self) -> None:
-        if self.points_mm and self.model_fields_set & {"nodes", "along"}:
-            raise ValueError("needs either points_mm or nodes and along")
+        if self.points_mm and "nodes" in self.model_fields_set:
+            raise ValueError("needs either points_mm or nodes")
 
 
 ModeCount = Annotated[int, Field(ge=1, le=100)]
@@ -365,14 +365,13 @@ class Stress(Settings):
     )
 
 
-TOP_SPEEDS = ("max_speed_rad_s", "max_speed_rpm")
 SOURCES = ("sections", "section_table", "cad", "mesh_file")
 
 
 class Blade(SettingsFile):
     """One blade: geometry, mesh, material, clamp at the hub, interface, speed range, reduction."""
 
-    either: ClassVar = [SOURCES, TOP_SPEEDS]
+    either: ClassVar = [SOURCES]
 
     sections: Sections | None = Field(default=None, description="Geometry from parameters")
     section_table: SectionTable | None = Field(
@@ -387,11 +386,8 @@ class Blade(SettingsFile):
     )
     stress: Stress = Field(default=Stress(), description="Where the stress of a rub is read")
     interface: Interface = Field(default=Interface(), description="Interface with the casing")
-    max_speed_rad_s: Annotated[float, Field(gt=0)] | None = Field(
-        default=None, description="Omega_m, the highest speed of the reduced model (rad/s)"
-    )
-    max_speed_rpm: Annotated[float, Field(gt=0)] | None = Field(
-        default=None, description="The same in rpm"
+    max_speed_rpm: float = Field(
+        gt=0, description="Omega_m, the highest speed of the reduced model (rpm)"
     )
     design_rpm: Annotated[float, Field(gt=0)] | None = Field(
         default=None, description="Design speed, marked in figures and summary (rpm)"
@@ -437,7 +433,7 @@ class Blade(SettingsFile):
             if rpm / RPM > self.top_speed:
                 raise SettingsError(
                     f"above the highest speed, {self.top_speed * RPM:.6g} rpm "
-                    f"({' or '.join(TOP_SPEEDS)}): raise that",
+                    f"(max_speed_rpm): raise that",
                     key=f"{name}_rpm",
                     value=rpm,
                     allowed={"le": self.top_speed * RPM},
@@ -448,7 +444,7 @@ class Blade(SettingsFile):
         given = self.interface.model_fields_set
         if self.of_points and (keys := [key for key in ("patches", "across") if key in given]):
             raise SettingsError(
-                "basis paper has points: give nodes and along, or points_mm; null takes out what "
+                "basis paper has points: give nodes, or points_mm; null takes out what "
                 "the base has",
                 key=f"interface.{keys[0]}",
             )
@@ -462,7 +458,7 @@ class Blade(SettingsFile):
     @property
     def top_speed(self) -> float:
         """Omega_m, rad/s."""
-        return self.max_speed_rad_s or self.max_speed_rpm / RPM
+        return self.max_speed_rpm / RPM
 
     def require_speed(self, radius: float, lengths: str) -> None:
         """Refuse a tip at ``radius`` (m) above ``MOST_TIP_SPEED``; ``lengths``: where it is given.
@@ -472,15 +468,14 @@ class Blade(SettingsFile):
         SettingsError
             The unit of length or of speed is wrong.
         """
-        speed, key = self.top_speed * radius, TOP_SPEEDS[self.max_speed_rad_s is None]
+        speed = self.top_speed * radius
         if speed > MOST_TIP_SPEED:
-            unit = "rad/s: those in rpm are max_speed_rpm" if self.max_speed_rad_s else "rpm"
             raise SettingsError(
                 f"the tip, at radius {radius:.4g} m, runs at {speed:.4g} m/s (allowed up to "
-                f"{MOST_TIP_SPEED:g}); check this speed ({unit}) and {lengths}",
-                key=key,
-                value=getattr(self, key),
-                allowed={"le": getattr(self, key) * MOST_TIP_SPEED / speed},
+                f"{MOST_TIP_SPEED:g}); check this speed (rpm) and {lengths}",
+                key="max_speed_rpm",
+                value=self.max_speed_rpm,
+                allowed={"le": self.max_speed_rpm * MOST_TIP_SPEED / speed},
             )
 
     def settings_of_matrices(self) -> dict[str, Any]:

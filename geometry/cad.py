@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 
+from geometry.base import MeshError, number, read_text, require_file
 from geometry.blade import Cad
 from geometry.frame import box, rotation, to_blade
-from geometry.mesh_faces import within_radius
-from geometry.project import MeshError, number, read_text, require_file
+from geometry.root_and_tip import within_radius
 from geometry.shape import Shape, faces_of, radii, sampled
 
 READ = (".step", ".stp", ".brep")

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from itertools import pairwise
 from pathlib import Path
 
-from geometry.project import MeshError, read_text
+from geometry.base import MeshError, read_text
 
 # a row with options: one that has a value, or first one that has none
 OPTION = re.compile(r".*=|(GENERATE|INTERNAL|UNSORTED)\s*(,|$)", re.IGNORECASE)

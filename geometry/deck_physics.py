@@ -5,9 +5,9 @@ from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
+from geometry.base import MeshError, number
 from geometry.cards import Card
 from geometry.file_physics import FileMaterial, Physics
-from geometry.project import MeshError, number
 
 ISOTROPIC = ("", "ISO", "ISOTROPIC")  # TYPE of *ELASTIC
 # other laws of a material than *ELASTIC

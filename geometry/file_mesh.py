@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_matrix
 
+from geometry.base import MeshError
 from geometry.file_physics import Physics
 from geometry.frame import box
-from geometry.project import MeshError
 from geometry.split import NODES, Block, flat_corners_first, split, triangles_of
 
 

@@ -6,8 +6,8 @@ Materials are shown, and compared with that of the blade, which is taken.
 from collections import Counter
 from dataclasses import dataclass, field
 
+from geometry.base import MeshError
 from geometry.blade import Material
-from geometry.project import MeshError
 
 UNITS = {  # of stress (Pa) and of density (kg/m3) by that of length, as programs pair them
     "m": (1.0, 1.0, "Pa and kg/m3"),

@@ -6,8 +6,8 @@ x is radial, y in the sense of rotation, z downstream.
 import numpy as np
 from numpy.typing import NDArray
 
+from geometry.base import MeshError
 from geometry.blade import Frame, SourceFile
-from geometry.project import MeshError
 from geometry.tetrahedra import MIRRORED
 
 LENGTHS = (1e-3, 5.0)  # m; for blades outside this range the unit is taken to be wrong

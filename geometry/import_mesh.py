@@ -8,13 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
+from geometry.base import MeshError, MeshWarning
 from geometry.blade import MeshGeometry
 from geometry.file_mesh import FileMesh
 from geometry.frame import axes, to_blade, turned
 from geometry.jacobians import of_file, of_tetrahedra
-from geometry.mesh_faces import root_and_tip
-from geometry.mesh_file import read_mesh_file
-from geometry.project import MeshError, MeshWarning
+from geometry.readers import read_mesh_file
+from geometry.root_and_tip import root_and_tip
 from geometry.shape import CELL, FACET, Shape
 from geometry.tetrahedra import EDGES, GMSH, edge_lengths, exterior
 

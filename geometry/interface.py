@@ -3,11 +3,11 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from geometry.base import MeshError
 from geometry.blade import Interface
 from geometry.facets import nearest_facet, outward, shape_functions
 from geometry.hats import hat_nodes, middles
-from geometry.mesh_faces import outline_of
-from geometry.project import MeshError
+from geometry.root_and_tip import outline_of
 from geometry.tip import DevelopedTip, cartesian, on_line
 
 APART = 0.25  # least extent of the mesh nodes under a hat, over the distance of two hat nodes
@@ -57,10 +57,7 @@ def places_of(interface: Interface, tip: DevelopedTip) -> NDArray[np.float64]:
     """Places (n, 3), m, of an interface of points, leading edge first."""
     if interface.points_mm:
         return np.array(interface.points_mm) * 1e-3
-    xi = middles(interface.nodes)
-    if interface.along == "pressure-side":
-        return cartesian(tip.pressure_side(xi))
-    return cartesian(on_line(tip.camber_line(), xi))
+    return cartesian(on_line(tip.camber_line(), middles(interface.nodes)))
 
 
 def on_facets(

@@ -9,6 +9,7 @@ import gmsh
 import numpy as np
 from numpy.typing import NDArray
 
+from geometry.base import MeshError, MeshWarning, WriteError, about, file_hash, whole
 from geometry.blade import MOST_THICKNESS, Blade, Cad, MeshGeometry, Sections, SectionTable
 from geometry.cad import import_cad
 from geometry.facets import normals
@@ -16,8 +17,8 @@ from geometry.file_mesh import FileMesh
 from geometry.generate import VOLUME_TOLERANCE, generate, volume
 from geometry.import_mesh import import_mesh
 from geometry.interface import on_facets, places_of, require_patches, tip_of
-from geometry.mesh_file import read_mesh_file
-from geometry.project import MeshError, MeshWarning, WriteError, about, file_hash, whole
+from geometry.readers import read_mesh_file
+from geometry.section_table import describe_cut, read_sections
 from geometry.sections import loft_parameters, loft_table
 from geometry.shape import (
     CELL,
@@ -29,7 +30,6 @@ from geometry.shape import (
     session,
     source_of,
 )
-from geometry.table import describe_cut, read_sections
 from geometry.tetrahedra import edge_lengths, exterior
 from geometry.tip import DevelopedTip, cartesian
 
@@ -109,7 +109,7 @@ def build_mesh(
         When the geometry is not valid, the tip is oriented against the rotation or too fast, there
         would be more than ``MOST_CELLS`` cells, gmsh fails, volume or Jacobians fail their check,
         or the facets of the tip do not allow the interface.
-    geometry.project.errors.WriteError
+    geometry.base.errors.WriteError
         When the file cannot be written.
     """
     made_of = file_hash(source) if source and Path(source).is_file() else ""
@@ -141,7 +141,7 @@ def write_moved(mesh_path: Path, moved_path: str | Path, places: NDArray[np.floa
     ------
     MeshError
         When cells are inside out there.
-    geometry.project.errors.WriteError
+    geometry.base.errors.WriteError
         When the file cannot be written.
     """
     with session("make the mesh anew"), whole(moved_path) as temporary:

@@ -8,9 +8,9 @@ import re
 from pathlib import Path
 
 from geometry.abaqus import INCLUDES, mesh_of
+from geometry.base import MeshError, number, read_text
 from geometry.cards import Card
 from geometry.file_mesh import FileMesh
-from geometry.project import MeshError, number, read_text
 
 SOLIDS = {"CTETRA": (4, 10), "CPYRAM": (5, 13), "CPENTA": (6, 15), "CHEXA": (8, 20)}  # nodes
 UPRIGHT = {15: 6, 20: 8}  # their first middle node; those of upright edges stand before the upper

@@ -7,7 +7,7 @@ the checks the mesh fails, or the blade is another one.
 import numpy as np
 from numpy.typing import NDArray
 
-from geometry.project import MeshError
+from geometry.base import MeshError
 
 MOST_GAP = 0.15  # of the chord, between two points; blunt edges are thinner
 ALONE = 2.5  # times the next longest step: a gap, not the spacing of the points

@@ -9,11 +9,11 @@ four sides are lofted as open faces, and the outlines of the first and last sect
 import gmsh
 import numpy as np
 
+from geometry.base import MeshError
 from geometry.blade import Sections
 from geometry.profile import profile_at
-from geometry.project import MeshError
+from geometry.section_table import CutSection
 from geometry.shape import Shape, by_radius, faces_of, wire
-from geometry.table import CutSection
 
 PLANES = 9  # number of sections of the loft
 OVERHANG = 0.03  # of the span, by which the loft extends beyond hub and tip

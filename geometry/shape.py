@@ -10,8 +10,8 @@ import gmsh
 import numpy as np
 from numpy.typing import NDArray
 
+from geometry.base import MeshError, ProvenanceError, anew, intact
 from geometry.file_physics import Physics
-from geometry.project import MeshError, ProvenanceError, anew, intact
 
 SAMPLES = 200  # points on each curve
 MESH = b"$MeshFormat\n"  # begins a mesh of gmsh

@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_matrix, eye_array, vstack
 
-from geometry.project import MeshError
+from geometry.base import MeshError
 from geometry.tetrahedra import EDGES, FACETS, check_middles
 
 # weights, of corners and of middles of edges

@@ -15,8 +15,8 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_matrix, tril, triu, vstack
 
-from geometry.given import SYMMETRIC
-from geometry.project import Provenance, legible, require_format, write_whole
+from geometry.base import Provenance, legible, require_format, write_whole
+from geometry.elsewhere import SYMMETRIC
 
 FORMAT = 1
 CSR = ("data", "indices", "indptr")  # arrays of a sparse matrix
@@ -66,7 +66,7 @@ class Stored:
 
         Raises
         ------
-        geometry.project.errors.WriteError
+        geometry.base.errors.WriteError
             When it cannot be written.
         """
         variables: dict[str, tuple] = {}
@@ -114,7 +114,7 @@ def write(dataset: xr.Dataset, path: str | Path, encoding: Any = None) -> None:
 
     Raises
     ------
-    geometry.project.errors.WriteError
+    geometry.base.errors.WriteError
         When it cannot be written.
     """
     image = BytesIO()

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
-from geometry.project import MeshError
+from geometry.base import MeshError
 
 EDGES = np.array([(0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3)])
 # six nodes each, seen from outside: corners anticlockwise, then the middles of the edges after them

@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import make_interp_spline
 
+from geometry.base import MeshError
 from geometry.hats import middles
 from geometry.outline import enclosed
-from geometry.project import MeshError
 
 NEAR_ENDS = np.array([0.01, 0.02, 0.03])  # chord fractions, behind most of a blunt or round edge
 TO_END = np.array([3.0, -3.0, 1.0])  # parabolic extrapolation from there to the end of the chord

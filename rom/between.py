@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 from scipy.linalg import eigh
 
 from fem.matrices import Constants, Matrices, Prestressed
+from geometry.base import Say, silent
 from geometry.blade import EnrichedBasis, PaperBasis
-from geometry.project import Say, silent
 from rom.basis import project
 from rom.full_model import MODES
 from rom.model import RomError

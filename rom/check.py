@@ -6,8 +6,8 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
+from geometry.base import Caution, Provenance
 from geometry.hats import mean, over_edges
-from geometry.project import Caution, Provenance
 from geometry.stored import Stored, frozen, stored
 from rom.between import error_between
 from rom.full_model import FullModel

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from fem.cholesky import Cholesky
 from fem.matrices import CODE, Constants, Prestressed
+from geometry.base import Provenance
 from geometry.hats import hat_nodes, mean, middles, over_edges
-from geometry.project import Provenance
 from geometry.stored import Stored, frozen, stored
 from geometry.tip import EDGES, on_line
 from rom.modes import ShiftInvert

@@ -8,9 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eigh
 
-from geometry.blade import RPM
+from geometry.base import RPM, Provenance, UserError
 from geometry.hats import hats, lean, mean, middles, over_edges, projection
-from geometry.project import Provenance, UserError
 from geometry.stored import Stored, frozen, stored
 from geometry.taper import slope_of_line
 from geometry.tip import EDGES, on_line
@@ -169,7 +168,7 @@ class Rom(Stored):
         return len(self.points) > 0
 
     @property
-    def foreign(self) -> bool:
+    def elsewhere(self) -> bool:
         """Whether it was made elsewhere: its full model and mesh are not known."""
         return "reduced_model" in self.provenance.settings
 
@@ -191,9 +190,9 @@ class Rom(Stored):
         """
         if not self.sides.size:
             raise RomError(
-                "the reduced model does not know the thickness of its tip: give the arc, m, that "
+                "the reduced model does not know the thickness of its tip: give the arc, mm, that "
                 "the tip covers",
-                key="liner.footprint_m",
+                key="liner.footprint_mm",
             )
         behind, ahead = (np.interp(xi, np.linspace(0, 1, len(s)), s) for s in self.sides)
         return self.line(xi)[:, 0] * (ahead - behind)

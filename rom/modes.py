@@ -11,7 +11,7 @@ from scipy.sparse import csr_matrix
 from scipy.sparse.linalg import LinearOperator, eigsh
 
 from fem.cholesky import Cholesky, petsc_matrix
-from geometry.project import UserError
+from geometry.base import UserError
 
 EIGEN_TOLERANCE = 1e-10  # asked of SLEPc, relative to the eigenvalue
 RESIDUAL_TOLERANCE = (

@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem.matrices import Matrices
-from geometry.project import Provenance
+from geometry.base import Provenance
 from geometry.stored import Stored, frozen, stored
 from rom.model import CODE, RomError, require_speed
 from rom.polynomial import evaluate, interpolate

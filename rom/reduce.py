@@ -6,9 +6,9 @@ from scipy.linalg import eigh
 from scipy.sparse import csr_matrix
 
 from fem.matrices import Matrices
+from geometry.base import Say, counted, silent
 from geometry.blade import EnrichedBasis, PaperBasis, settings_of_basis
 from geometry.hats import mean, over_edges
-from geometry.project import Say, counted, silent
 from geometry.tip import EDGES
 from rom.basis import Components, enriched_basis, paper_basis, project
 from rom.model import CODE, DIRECTIONS, Rom, require_letters

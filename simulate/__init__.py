@@ -47,7 +47,7 @@ __all__ = [*FACE]
 
 def __getattr__(name: str) -> Any:
     if name == "__version__":
-        return import_module("geometry.project.provenance").version()
+        return import_module("geometry.base.provenance").version()
     if name not in FACE:
         raise AttributeError(f"module 'simulate' has no attribute {name!r}")
     return getattr(import_module(FACE[name]), name)

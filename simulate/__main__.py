@@ -6,8 +6,7 @@ from contextlib import suppress
 from functools import partial
 from pathlib import Path
 
-from geometry.given import read_blade
-from geometry.project import (
+from geometry.base import (
     SettingsError,
     WriteError,
     command,
@@ -16,15 +15,16 @@ from geometry.project import (
     version,
     write_or_keep,
 )
-from rom.foreign import load_model
+from geometry.elsewhere import read_blade
+from rom.elsewhere import load_model
 from rom.model import Rom
 from simulate.errors.accuracy import Choice, pilot
 from simulate.marching import SceneError
 from simulate.scene import Scene, own_laws
 from simulate.scene.design import Design
-from simulate.sweeps.closing_in import sweep
 from simulate.sweeps.dataset import load, save
 from simulate.sweeps.design_runs import Engine, march_block, row_table, save as save_table
+from simulate.sweeps.sweep import sweep
 
 
 @command
@@ -102,10 +102,10 @@ def _require_current(rom: Rom, path: Path, scene: Scene, scene_path: Path) -> No
 
     Raises
     ------
-    geometry.project.provenance.ProvenanceError
+    geometry.base.provenance.ProvenanceError
         If it was; the message names the difference.
     """
-    if rom.foreign and not sealed(path):
+    if rom.elsewhere and not sealed(path):
         return
     blade = scene_path.resolve().parent.parent / "blades" / f"{scene.blade}.yaml"
     if rom.provenance.blade == scene.blade and blade.is_file():

@@ -8,14 +8,14 @@ from typing import Self
 
 import xarray as xr
 
-from geometry.blade import RPM
-from geometry.project import printable
+from geometry.base import RPM, printable
 from rom.model import Rom
 from simulate.errors.checked import checked
 from simulate.marching import Outcome, check_scene
 from simulate.scene import Scene
-from simulate.sweeps import closing_in, dataset, over_speeds, peak
-from simulate.sweeps.plausible import doubts, warn_of
+from simulate.sweeps import dataset, over_speeds, peak
+from simulate.sweeps.sweep import sweep as swept
+from simulate.sweeps.unusual import doubts, warn_of
 
 
 @dataclass(frozen=True)
@@ -79,7 +79,7 @@ class Runs:
 
         Raises
         ------
-        geometry.project.provenance.ProvenanceError
+        geometry.base.provenance.ProvenanceError
             When it was run on another reduced model.
         """
         runs = dataset.load(path)
@@ -101,7 +101,7 @@ def sweep(scene: Scene, rom: Rom, start: Runs | None = None) -> Runs:
     simulate.marching.setup.SceneError
         When the scene does not fit the reduced model or the step is above its limit.
     """
-    return Runs(closing_in.sweep(scene, rom, start=start and start.dataset), rom)
+    return Runs(swept(scene, rom, start=start and start.dataset), rom)
 
 
 def march(scene: Scene, rom: Rom, Omega: float) -> Outcome:

@@ -5,8 +5,8 @@ from typing import Any, NamedTuple
 
 import pytest
 
+from geometry.base import ROOT, check_settings, provenance, sources
 from geometry.blade import Blade
-from geometry.project import ROOT, check_settings, provenance, sources
 
 CORE = "simulate"  # folder
 BEYOND = {  # its files of more than one run: sweeps, second runs, what shows them
@@ -100,7 +100,7 @@ def coarse_files(coarse_blade, coarse_mesh) -> BladeFiles:
     from rom.speeds import basis_speeds
 
     matrices = coarse_mesh.mesh.with_name("matrices.h5")
-    speeds = basis_speeds(coarse_blade.basis, coarse_blade.max_speed_rad_s)
+    speeds = basis_speeds(coarse_blade.basis, coarse_blade.top_speed)
     assemble(coarse_blade, "coarse", coarse_mesh.mesh, speeds).save(matrices)
     return BladeFiles(coarse_mesh.mesh, matrices)
 
@@ -141,7 +141,7 @@ def paper_matrices(paper_blade, coarse_mesh):
     from fem.assemble import assemble
     from rom.speeds import basis_speeds
 
-    speeds = basis_speeds(paper_blade.basis, paper_blade.max_speed_rad_s)
+    speeds = basis_speeds(paper_blade.basis, paper_blade.top_speed)
     return assemble(paper_blade, "coarse-paper", coarse_mesh.mesh, speeds)
 
 

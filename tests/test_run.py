@@ -99,7 +99,7 @@ def machine(tmp_path):
     return Machine(tmp_path)
 
 
-def test_usage(machine):
+def test_job_cost(machine):
     result = machine.run()
     assert result.returncode == 2
     assert len(result.stderr.splitlines()) == 10

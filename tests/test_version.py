@@ -8,7 +8,7 @@ import yaml
 from packaging.specifiers import SpecifierSet
 
 import simulate
-from geometry.project import ROOT, version
+from geometry.base import ROOT, version
 from simulate.__main__ import main
 
 CHANGELOG = (ROOT / "CHANGELOG.md").read_text()

@@ -14,9 +14,7 @@ from typing import NamedTuple
 
 import xarray as xr
 
-from geometry.blade import RPM_PER_HZ, Blade
-from geometry.given import read_blade
-from geometry.project import (
+from geometry.base import (
     Say,
     SettingsError,
     UserError,
@@ -25,6 +23,8 @@ from geometry.project import (
     write_whole,
     yaml_file,
 )
+from geometry.blade import RPM_PER_HZ, Blade
+from geometry.elsewhere import read_blade
 from rom.model import Rom
 from simulate.errors.neighbour import Neighbour
 from simulate.errors.neighbours import ITSELF
@@ -36,8 +36,8 @@ from simulate.sweeps.dataset import load, require_rom
 from simulate.sweeps.peak import Peak
 from simulate.sweeps.peak_results import asked, at_peak, case_of, to_march
 from workflow import markdown
+from workflow.job_cost import cpu_seconds
 from workflow.summary import Column, known_columns
-from workflow.usage import cpu_seconds
 
 FINER = sqrt(2)  # element size of the mesh over that of the finer one
 DEARER = 4.0  # matrices and modes on that mesh, 2.8 times the nodes
@@ -95,7 +95,7 @@ class Subject(NamedTuple):
 
         Raises
         ------
-        geometry.project.errors.UserError
+        geometry.base.errors.UserError
             When it has not, or its model is another one now.
         """
         if name not in yaml_file.names("workflow/scenes"):
@@ -128,7 +128,7 @@ class Subject(NamedTuple):
 
         Raises
         ------
-        geometry.project.errors.UserError
+        geometry.base.errors.UserError
             When it is not possible.
         """
         if other.blade:

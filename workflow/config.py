@@ -7,7 +7,7 @@ from typing import Any, ClassVar
 
 from pydantic import Field
 
-from geometry.project import (
+from geometry.base import (
     A_NAME,
     NAME,
     Fault,

@@ -15,10 +15,9 @@ from numpy.typing import NDArray
 from scipy.io import savemat
 
 from fem.fields import dofs_at, save_vtu
-from geometry.blade import RPM
+from geometry.base import RPM, command, intact, numbers, whole, write_whole
 from geometry.frame import to_file, turned
-from geometry.mesh_file import read_mesh_file
-from geometry.project import command, intact, numbers, whole, write_whole
+from geometry.readers import read_mesh_file
 from rom.full_model import MODES
 from rom.reconstruct import Basis
 from simulate.sweeps.dataset import SPEED
@@ -33,7 +32,7 @@ def main(name: str = "", *rpm: str) -> None:
 
     Raises
     ------
-    geometry.project.errors.UserError
+    geometry.base.errors.UserError
         When there is no such scene, the model has no such speed, the scene has not been run, its
         blade has no mesh, or its files are of different models.
     """

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from geometry.base import MeshError, MeshWarning, UserError, check_settings
 from geometry.blade import METRES, Blade, Frame, Interface, Material
 from geometry.cad import StepFile
 from geometry.facets import normals
@@ -19,8 +20,7 @@ from geometry.file_mesh import FileMesh
 from geometry.file_physics import FileMaterial, Physics
 from geometry.frame import rotation
 from geometry.mesh import ENOUGH, MeshSummary, build_mesh
-from geometry.mesh_file import read_mesh_file
-from geometry.project import MeshError, MeshWarning, UserError, check_settings
+from geometry.readers import read_mesh_file
 from geometry.tetrahedra import exterior, patches
 from workflow.figures.style import (
     BLACK,

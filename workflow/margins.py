@@ -9,7 +9,7 @@ from math import isfinite
 from operator import itemgetter
 from typing import Any, TypedDict
 
-from simulate.sweeps.plain import CriticalSpeed, mode_name, numbers_of, order_name
+from simulate.sweeps.result_types import CriticalSpeed, mode_name, numbers_of, order_name
 from workflow import markdown
 
 WITHIN = 0.25  # of the operating speed: tables have the speeds within it

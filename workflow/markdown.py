@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from math import floor, isfinite, isnan, log10
 from typing import NamedTuple
 
-from geometry.project import printable
+from geometry.base import printable
 
 TAG = re.compile(r"<(?=[A-Za-z/!?])")
 LEAST = 1e-4  # smaller uncertainties and changes, relative, count as equal

@@ -15,9 +15,8 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from geometry.blade import RPM, Blade, Interface
-from geometry.given import read_blade
-from geometry.project import (
+from geometry.base import (
+    RPM,
     SettingsError,
     UserError,
     about,
@@ -27,6 +26,8 @@ from geometry.project import (
     write_whole,
     yaml_file,
 )
+from geometry.blade import Blade, Interface
+from geometry.elsewhere import read_blade
 from simulate.scene import Scene
 from workflow.experiment.plan import Experiment
 
@@ -67,7 +68,7 @@ def new(kind: str, name: str, about: str | None = None, folder: Path = Path()) -
 
     Raises
     ------
-    geometry.project.errors.SettingsError
+    geometry.base.errors.SettingsError
         When there is a file of that name, none of that in ``about``, or the name is not allowed.
     """
     if not yaml_file.NAME.fullmatch(name):
@@ -193,7 +194,7 @@ def main(arguments: list[str], folder: Path = Path()) -> None:
 def _show(file: Path) -> None:
     """Show the contents of a mesh or a STEP file."""
     from geometry.cad import StepFile  # slow imports, which other kinds do without
-    from geometry.mesh_file import read_mesh_file
+    from geometry.readers import read_mesh_file
 
     read = read_mesh_file if SOURCES[file.suffix.lower()] == "mesh_file" else StepFile
     with about(file):

@@ -16,14 +16,14 @@ from typing import Any, NamedTuple
 
 from pydantic import BaseModel
 
+from geometry.base import UserError, command, read_json, write_whole
 from geometry.blade import Blade
-from geometry.given import GivenMatrices
-from geometry.project import UserError, command, read_json, write_whole
+from geometry.elsewhere import MatricesElsewhere
 from simulate.scene import Scene
-from simulate.sweeps.plain import numbers_of
+from simulate.sweeps.result_types import numbers_of
 from workflow.markdown import change, table, two_digits
 from workflow.paper import blocks
-from workflow.study import interface, mesh, rotor37, trade_table
+from workflow.study import interface, mesh_convergence, rotor37, trade_table
 from workflow.study.stability import told as stability
 from workflow.summary import (
     OVER_F1,
@@ -143,7 +143,7 @@ COMPUTED = (
     *blocks.COMPUTED,
     ("printed", "results/summary.json", printed),
     ("summary", "results/summary.json", scenes),
-    ("mesh", "results/experiments/mesh/table.json", mesh.table),
+    ("mesh", "results/experiments/mesh/table.json", mesh_convergence.table),
     ("bases", f"{KEPT}/bases.csv", kept),
     ("rotor37", "results/experiments/frequencies/table.json", rotor37.prestress_table),
     ("levels", TRADE, trade_table.by_level),
@@ -162,7 +162,7 @@ COMPUTED = (
     ("bricks", "tests/fem/bricks.json", bricks),
     ("growth", f"{KEPT}/scaling.csv", kept),
 )
-SETTINGS = {"blade": Blade, "given": GivenMatrices, "scene": Scene}  # block: model of the file
+SETTINGS = {"blade": Blade, "given": MatricesElsewhere, "scene": Scene}  # block: model of the file
 # kept beside the captions, for the pages
 PICTURES = ("paper/paper-e1/rub-0.345.png",)
 BLOCK = re.compile(

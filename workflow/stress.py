@@ -22,9 +22,9 @@ from fem.fields import around, away, disagreement, dofs_at, grid_of, save_vtu
 from fem.node_stress import NodeStress
 from fem.solid import Solid, read_solid
 from fem.worst_node import cycles, worst
-from geometry.blade import RPM, Blade
+from geometry.base import RPM, ProvenanceError
+from geometry.blade import Blade
 from geometry.frame import to_file
-from geometry.project import ProvenanceError
 from rom.model import Rom
 from rom.polynomial import evaluate
 from rom.reconstruct import Basis

@@ -10,13 +10,13 @@ from pathlib import Path
 from textwrap import wrap
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from geometry.base import csv_text, printable, read_json
 from geometry.blade import RPM_PER_HZ
-from geometry.project import csv_text, printable, read_json
 from geometry.tip import JUDGED
 from simulate.errors.beyond_linear import BEYOND
 from simulate.errors.neighbour import CHAOTIC, ONE_MOTION, TWO_MOTIONS
 from simulate.scene import DYING_OUT, GROWING, STEADY, TRENDS
-from simulate.sweeps.plain import NO_CROSSING, Course, numbers_of
+from simulate.sweeps.result_types import NO_CROSSING, Course, numbers_of
 from workflow import margins, markdown, stress_told
 from workflow.markdown import Number
 from workflow.stress_told import ALL

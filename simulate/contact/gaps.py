@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from geometry.project import Fault, known
+from geometry.base import Fault, known
 from rom.model import Rom
 from simulate.contact.places import slope_at
 from simulate.scene import Gaps
@@ -37,7 +37,7 @@ def gaps_at(of: Gaps, rom: Rom, xi: ArrayLike, Omega: float) -> NDArray[np.float
         return gaps
     thermal = of.clearance.thermal_growth if of.clearance else None
     grown = rom.growth_at(along, Omega).reshape(xi.shape)
-    return gaps - (grown + (thermal.at(Omega, rom.f1) if thermal else 0.0))
+    return gaps - (grown + (thermal.at(Omega, rom.f1) / 1e6 if thermal else 0.0))
 
 
 def lean_of_gaps(of: Gaps, rom: Rom, xi: NDArray[np.float64], Omega: float) -> NDArray[np.float64]:

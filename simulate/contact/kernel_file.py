@@ -39,7 +39,7 @@ from numba.core.serialize import dumps
 from numba.core.types import BaseTuple, Dispatcher as DispatcherType, Type
 from platformdirs import user_cache_path
 
-from geometry.project import intact, write_whole
+from geometry.base import intact, write_whole
 
 FOLDER = user_cache_path("tiprub") / "kernels"
 VERSIONS = sys.version, numba.__version__, llvmlite.__version__, np.__version__

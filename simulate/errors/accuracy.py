@@ -22,7 +22,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from geometry.project import ProvenanceError, anew, read_json
+from geometry.base import ProvenanceError, anew, read_json
 from rom.coarser import coarser
 from rom.model import Rom
 from simulate.contact.places import mean_footprint
@@ -96,7 +96,7 @@ class Choice(Fineness):
 
         Raises
         ------
-        geometry.project.provenance.ProvenanceError
+        geometry.base.provenance.ProvenanceError
             When it is missing, damaged, or no choice of this version.
         """
         values = read_json(path)
@@ -136,12 +136,12 @@ def pilot(scene: Scene, rom: Rom, check: str | Path, mesh: str | Path | None) ->
 
     Raises
     ------
-    geometry.project.provenance.ProvenanceError
+    geometry.base.provenance.ProvenanceError
         As ``ModelErrors.of``.
     SceneError
         As ``choose``, and when no coarser mesh could be made.
     """
-    if rom.foreign:
+    if rom.elsewhere:
         print(NOT_KNOWN)
     errors = ModelErrors.of(check, mesh, rom)
     if errors.no_mesh:

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from time import perf_counter
 
-from geometry.project import Say, silent
+from geometry.base import Say, silent
 from simulate.errors.neighbours import TWICE, judged
 from simulate.errors.observables import last_spectrum
 from simulate.errors.resolution import risk

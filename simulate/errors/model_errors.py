@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from geometry.project import ProvenanceError, anew, read_json
+from geometry.base import ProvenanceError, anew, read_json
 from geometry.stored import opened
 from rom.model import Rom
 
@@ -32,10 +32,10 @@ class ModelErrors(NamedTuple):
 
         Raises
         ------
-        geometry.project.provenance.ProvenanceError
+        geometry.base.provenance.ProvenanceError
             When there is no check, a file is damaged, or belongs to another model or mesh.
         """
-        if rom.foreign:
+        if rom.elsewhere:
             return cls()
         of_mesh = _of_mesh(mesh, rom) if mesh and Path(mesh).is_file() else {}
         with opened(check, "check of a reduced model") as (checked, provenance):

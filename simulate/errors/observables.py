@@ -13,10 +13,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from geometry.tip import JUDGED
 from simulate.contact.places import by_share
-from simulate.errors.loads import mean_force, mean_opening, torque_of_rounds, worn_volume
 from simulate.errors.run import Run
-from simulate.errors.signals import amplitude, lobe_count, on_rods, spectrum
+from simulate.loads import mean_force, mean_opening, torque_of_rounds, worn_volume
 from simulate.marching import WITH_RESULT
+from simulate.signals import amplitude, lobe_count, on_rods, spectrum
 
 # smaller root mean squares count as these in relative differences: m, but N for forces
 LEAST = {"spectrum": 1e-9, "wear": 1e-9, "history": 1e-9, "states": 1e-9, "force_peak": 1e-2}

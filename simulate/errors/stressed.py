@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem.node_stress import NodeStress
+from geometry.base import known
 from geometry.blade import Fatigue
-from geometry.project import known
 from simulate.errors.observables import Numbers
 from simulate.errors.run import Run
 from simulate.marching.states import every

@@ -1,6 +1,6 @@
 """One run: modes, set-up, schemes, status."""
 
-from simulate.marching.checks import check_scene
+from simulate.marching.refusals import check_scene
 from simulate.marching.run import Outcome, make_kernel, march
 from simulate.marching.setup import (
     SceneError,

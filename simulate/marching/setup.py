@@ -9,7 +9,7 @@ import numpy as np
 from numba.core import errors
 from numpy.typing import NDArray
 
-from geometry.project import UserError, known
+from geometry.base import UserError, known
 from geometry.tip import EDGES, JUDGED
 from rom.model import Rom
 from rom.polynomial import evaluate
@@ -35,7 +35,6 @@ from simulate.scene.law import Law
 from simulate.scene.laws import LAWS
 
 LARGEST_DISPLACEMENT = 0.1  # of the span: beyond this, linear elasticity no longer applies
-LEAST_SCALED = 10  # times the first frequency: modes below keep their mass
 INERTIA = 1 / 12  # of a footprint: the moment under a lean of 1, over the force under a w of 1
 MARGIN = 2  # rods on either side of the window, where the casing is met at the end of a step
 MAX_STEPS = 10**9  # per revolution, minutes of computing
@@ -82,12 +81,12 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
     Raises
     ------
     SceneError
-        When the step is above the stability limit with contact, or too long for friction, masses
-        are scaled at too low a frequency, a gap at rest is less than the growth of the tip, or a
-        rigid casing would overlap the blade at the start.
+        When the step is above the stability limit with contact, or too long for friction, a gap at
+        rest is less than the growth of the tip, or a rigid casing would overlap the blade at the
+        start.
     """
     integrator, contact, zeta = scene.stepping, scene.contact, scene.damping_ratio
-    omega, Phi = _marched_modes(integrator.mass_scaling_hz, *rom.modes(Omega))
+    omega, Phi = rom.modes(Omega)
     places, leans = strip_places(rom, scene.liner, scene.casing), rom.across == 2
     Phi_b = closing_rows(rom, scene.casing, places.xi) @ Phi
     Phi_t = rom.rows(places.xi, "t") @ Phi if contact.along else Phi[:0]
@@ -169,29 +168,6 @@ def _pushed(
     if mu is None:
         return Phi_b**2
     return Phi_b * (Phi_b + mu * places.secant[:, None] * Phi_t)
-
-
-def _marched_modes(
-    highest_hz: float | None, omega: NDArray[np.float64], Phi: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Natural frequencies and modes with the mass scaling of an integrator.
-
-    A mode above the given frequency, Hz, gets the mass that lowers it to there. Its stiffness is
-    unchanged, and with it the static compliance Phi omega^-2 Phi^T of the interface.
-    """
-    if highest_hz is None:
-        return omega, Phi
-    highest = 2 * np.pi * highest_hz
-    least = LEAST_SCALED * omega[0]
-    if highest < least:
-        raise SceneError(
-            f"allowed from {least / (2 * np.pi):.6g}, {LEAST_SCALED} times the first frequency",
-            key="integrator.mass_scaling_hz",
-            value=highest_hz,
-            allowed={"ge": least / (2 * np.pi)},
-        )
-    scaled = np.minimum(omega, highest)
-    return scaled, Phi * (scaled / omega)
 
 
 def _limit(
@@ -412,10 +388,10 @@ def edge_slope(profile: Profile | None, footprint: float) -> float:
 
 
 def _rod_law(liner: Liner) -> RodLaw:
-    """Law of the rods: a user's own is called through pointers, unless the kernel is to hold it."""
+    """Law of the rods: a user's own, whose parameters are numbers, is called through pointers."""
     law, parameters = liner.law, liner.law.parameters
     numbers = len(parameters) > 0 and all(isinstance(value, int | float) for value in parameters)
-    called = numbers and not liner.law_in_march and not isinstance(law, LAWS)
+    called = numbers and not isinstance(law, LAWS)
     with compiling(law):
         return rod_law(type(law), parameters, called)
 

@@ -23,7 +23,7 @@ from simulate.scene.record import (
     Record,
 )
 from simulate.scene.scene import OF_LAST_ROUNDS, Scene, fault_of_blade
-from simulate.scene.speeds import OF_RPM, OVER_F1, RAD_S, Speeds
+from simulate.scene.speeds import OF_RPM, OVER_F1, Speeds
 
 __all__ = [
     "DYING_OUT",
@@ -32,7 +32,6 @@ __all__ = [
     "OF_LAST_ROUNDS",
     "OF_RPM",
     "OVER_F1",
-    "RAD_S",
     "STEADY",
     "STRIPS",
     "TOO_SHORT",

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pydantic import Field
 
-from geometry.project import Settings, SettingsError, checked, known
+from geometry.base import RPM, Settings, SettingsError, checked, known, shifted
 from geometry.taper import counted, slope_of_line
 from geometry.tip import EDGES
 from simulate.scene.tables import (
@@ -24,7 +24,7 @@ from simulate.scene.tables import (
 )
 
 LEADING, TRAILING = EDGES
-IN_M = "in m: 0.1 mm is 1.0e-4"
+IN_UM = "in um: 0.1 mm is 100"
 OVER_SPAN = "over the span: 0.02 % of it is 2.0e-4"
 
 MOST_ROUNDS = 100_000
@@ -34,34 +34,34 @@ CASING, SIDE_BAND = "casing", "side band"  # what excites an engine order
 
 # bounds detect wrong units; ``hints`` of the models name the likely slip
 Factor = Annotated[float, Field(ge=0, le=1e4)]
-Gap = Annotated[float, Field(ge=0, le=0.05)]
+Gap = Annotated[float, Field(ge=0, le=5e4)]
 GapOverSpan = Annotated[float, Field(ge=0, le=0.5)]
 
 
-def _length(in_m: float | None, share: float | None, whole: float) -> float:
-    """Length, m, given as such, or as a ``share`` of another one, ``whole`` (m)."""
-    return known(share, "length") * whole if in_m is None else in_m
+def _length(in_um: float | None, share: float | None, whole: float) -> float:
+    """Length, m, given in um, or as a ``share`` of another one, ``whole`` (m)."""
+    return known(share, "length") * whole if in_um is None else shifted(in_um, -6)
 
 
 class Clearance(Settings):
     """Gap between tip and liner, linear along the chord, given at two places of it."""
 
     either: ClassVar = [
-        ("leading_edge_m", "leading_edge_over_span"),
-        ("trailing_edge_m", "trailing_edge_over_span"),
+        ("leading_edge_um", "leading_edge_over_span"),
+        ("trailing_edge_um", "trailing_edge_over_span"),
     ]
     hints: ClassVar = {
-        "leading_edge_m": IN_M,
-        "trailing_edge_m": IN_M,
+        "leading_edge_um": IN_UM,
+        "trailing_edge_um": IN_UM,
         "leading_edge_over_span": OVER_SPAN,
         "trailing_edge_over_span": OVER_SPAN,
     }
 
-    leading_edge_m: Gap | None = Field(
-        default=None, description="Gap at xi = 1/16 of the chord (m)"
+    leading_edge_um: Gap | None = Field(
+        default=None, description="Gap at xi = 1/16 of the chord (um)"
     )
-    trailing_edge_m: Gap | None = Field(
-        default=None, description="Gap at xi = 15/16 of the chord (m)"
+    trailing_edge_um: Gap | None = Field(
+        default=None, description="Gap at xi = 15/16 of the chord (um)"
     )
     leading_edge_over_span: GapOverSpan | None = Field(
         default=None, description="Gap at xi = 1/16 of the chord over the blade length"
@@ -88,8 +88,8 @@ class Clearance(Settings):
 
     def gaps(self, xi: ArrayLike, span: float) -> NDArray[np.float64]:
         """Gaps as given, m, of the shape of the chord fractions ``xi``; ``span``: length, m."""
-        first = _length(self.leading_edge_m, self.leading_edge_over_span, span)
-        last = _length(self.trailing_edge_m, self.trailing_edge_over_span, span)
+        first = _length(self.leading_edge_um, self.leading_edge_over_span, span)
+        last = _length(self.trailing_edge_um, self.trailing_edge_over_span, span)
         return first + (last - first) * (np.asarray(xi) - LEADING) / (TRAILING - LEADING)
 
 
@@ -114,19 +114,16 @@ class Gaps:
 class Harmonic(Settings):
     """One harmonic of the casing, amplitude cos(order (theta - speed t) + phase), inward."""
 
-    either: ClassVar = [("amplitude_um", "amplitude_m", "amplitude_gaps")]
+    either: ClassVar = [("amplitude_um", "amplitude_gaps")]
     hints: ClassVar = {
-        "amplitude_m": IN_M,
+        "amplitude_um": IN_UM,
         "amplitude_gaps": "over the gap: 150 % of it is 1.5",
         "phase_deg": "in degrees",
     }
 
     order: int = Field(ge=0, le=HIGHEST_ORDER, description="Nodal diameters")
     amplitude_um: float | None = Field(
-        default=None, ge=0, le=1e6 * LARGEST_DEPTH, description="Amplitude (um)"
-    )
-    amplitude_m: float | None = Field(
-        default=None, ge=0, le=LARGEST_DEPTH, description="Amplitude (m)"
+        default=None, ge=0, le=LARGEST_DEPTH, description="Amplitude (um)"
     )
     amplitude_gaps: Factor | None = Field(
         default=None, description="Amplitude over the gap at xi = 1/16"
@@ -134,31 +131,29 @@ class Harmonic(Settings):
     phase_deg: float = Field(
         default=0, ge=-360, le=360, description="Phase (deg), as in cos(order theta + phase)"
     )
-    speed_rad_s: float = Field(
+    speed_rpm: float = Field(
         default=0,
-        ge=-1e5,
-        le=1e5,
-        description="Speed of travel around the casing, in the sense of rotation (rad/s)",
+        ge=-1e6,
+        le=1e6,
+        description="Speed of travel around the casing, in the sense of rotation (rpm)",
     )
 
     @checked
     def _what_travels_has_lobes(self) -> None:
-        if self.speed_rad_s != 0 and self.order == 0:
+        if self.speed_rpm != 0 and self.order == 0:
             raise SettingsError(
                 "order 0 is the same all around; allowed 0, or order from 1",
-                key="speed_rad_s",
-                value=self.speed_rad_s,
+                key="speed_rpm",
+                value=self.speed_rpm,
             )
 
     def size(self, gap: float) -> float:
         """Amplitude, m; ``gap`` at xi = 1/16 in m."""
-        if self.amplitude_um is not None:
-            return 1e-6 * self.amplitude_um
-        return _length(self.amplitude_m, self.amplitude_gaps, gap)
+        return _length(self.amplitude_um, self.amplitude_gaps, gap)
 
     def turn(self, time: float) -> float:
         """Phase, rad, that passes in ``time``, s."""
-        return self.order * self.speed_rad_s * time
+        return self.order * (self.speed_rpm / RPM) * time
 
     def inward(
         self, theta: NDArray[np.float64], gap: float, time: float = 0.0
@@ -261,7 +256,7 @@ class Casing(Settings):
     @property
     def travelling(self) -> list[Harmonic]:
         """Harmonics that travel."""
-        return [harmonic for harmonic in self.harmonics or () if harmonic.speed_rad_s != 0]
+        return [harmonic for harmonic in self.harmonics or () if harmonic.speed_rpm != 0]
 
     @property
     def orders(self) -> set[int]:
@@ -273,7 +268,7 @@ class Casing(Settings):
         return {
             harmonic.order
             for harmonic in self.harmonics or ()
-            if harmonic.order and not harmonic.speed_rad_s and harmonic.size(1.0)
+            if harmonic.order and not harmonic.speed_rpm and harmonic.size(1.0)
         }
 
     @property
@@ -302,5 +297,5 @@ class Casing(Settings):
 
     def fixed(self, theta: NDArray[np.float64], gap: float) -> NDArray[np.float64]:
         """The part of d(theta), m, that does not travel."""
-        stands = [harmonic for harmonic in self.harmonics or () if harmonic.speed_rad_s == 0]
+        stands = [harmonic for harmonic in self.harmonics or () if harmonic.speed_rpm == 0]
         return self.scale * sum((harmonic.inward(theta, gap) for harmonic in stands), 0 * theta)

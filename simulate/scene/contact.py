@@ -4,7 +4,7 @@ from typing import ClassVar
 
 from pydantic import Field
 
-from geometry.project import Settings, SettingsError, checked
+from geometry.base import Settings, SettingsError, checked, shifted
 
 
 class Profile(Settings):
@@ -15,15 +15,15 @@ class Profile(Settings):
     """
 
     hints: ClassVar = {
-        "edge_drop_m": "in m: 5 um is 5.0e-6",
+        "edge_drop_um": "in um: 0.005 mm is 5",
         "tilt": "a slope: 1 deg is 0.01745",
     }
 
-    edge_drop_m: float = Field(
+    edge_drop_um: float = Field(
         default=0.0,
         ge=0,
-        le=0.02,
-        description="Rounding: how far both ends lie below the middle (m)",
+        le=2e4,
+        description="Rounding: how far both ends lie below the middle (um)",
     )
     tilt: float = Field(
         default=0.0, ge=-1, le=1, description="Slope of the tip; its trailing side rubs if > 0"
@@ -31,8 +31,13 @@ class Profile(Settings):
 
     @checked
     def _not_flat(self) -> None:
-        if self.edge_drop_m == 0 and self.tilt == 0:
-            raise ValueError("give edge_drop_m or tilt: without either the tip is flat")
+        if self.edge_drop_um == 0 and self.tilt == 0:
+            raise ValueError("give edge_drop_um or tilt: without either the tip is flat")
+
+    @property
+    def edge_drop_m(self) -> float:
+        """The rounding, m."""
+        return shifted(self.edge_drop_um, -6)
 
 
 class Contact(Settings):
@@ -59,7 +64,7 @@ class Contact(Settings):
     def _one_tangential_force(self) -> None:
         if self.tangential and self.profile is None:
             raise SettingsError(
-                "needs `profile: {edge_drop_m: ...}`: on a flat tip the force is radial",
+                "needs `profile: {edge_drop_um: ...}`: on a flat tip the force is radial",
                 key="tangential",
                 value=True,
             )

@@ -13,16 +13,19 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from copy import deepcopy
 from dataclasses import dataclass
+from functools import partial
 from itertools import pairwise
 from pathlib import Path
 from typing import Any, Self
 
 import numpy as np
 
-from geometry.project import (
+from geometry.base import (
+    FORMER,
     Fault,
     SettingsError,
     check_settings,
+    converted,
     csv_rows,
     merged,
     number,
@@ -68,7 +71,7 @@ class Design:
 
         Raises
         ------
-        geometry.project.errors.SettingsError
+        geometry.base.errors.SettingsError
             When the scene names none, or table or scene are not valid: a line for each fault.
         """
         return cls.of(Scene.load(scene_path), Path(scene_path))
@@ -79,7 +82,7 @@ class Design:
 
         Raises
         ------
-        geometry.project.errors.SettingsError
+        geometry.base.errors.SettingsError
             As ``load``.
         """
         if scene.design is None:
@@ -105,7 +108,7 @@ class Design:
 
         Raises
         ------
-        geometry.project.errors.SettingsError
+        geometry.base.errors.SettingsError
             When the table has no such row.
         """
         if not 1 <= row <= len(self.scenes):
@@ -133,7 +136,7 @@ def refuse(path: Path, faults: Iterable[tuple[int, Fault]]) -> None:
 
     Raises
     ------
-    geometry.project.errors.SettingsError
+    geometry.base.errors.SettingsError
         If there are any.
     """
     rows: dict[str, tuple[Fault, list[int]]] = {}
@@ -225,7 +228,7 @@ def placed(
 
     Raises
     ------
-    geometry.project.errors.SettingsError
+    geometry.base.errors.SettingsError
         When there is no such place.
     """
     placed_there: dict[str, Any] = {}
@@ -271,8 +274,15 @@ def value_at(scene: Any, column: str) -> Any:
     for key in keys(column):
         if scene is None:
             return None
-        if isinstance(key, int):
-            scene = scene[key]
-        else:
-            scene = scene.get(key) if isinstance(scene, dict) else getattr(scene, key, None)
+        scene = scene[key] if isinstance(key, int) else _under(scene, key)
     return scene
+
+
+def _under(settings: Any, key: str) -> Any:
+    """Value of a key; of a former one in its unit."""
+    get = settings.get if isinstance(settings, dict) else partial(getattr, settings)
+    value = get(key, None)
+    if value is not None or key not in FORMER:
+        return value
+    former = FORMER[key]
+    return converted(get(former.now, None), former.back)

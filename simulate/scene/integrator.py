@@ -4,38 +4,34 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field, model_validator
 
-from geometry.project import Settings, SettingsError, one_of
+from geometry.base import Settings, SettingsError, one_of
 
 StepsPerRound = Annotated[int, Field(ge=64, le=10**9)]
-MassScaling = Annotated[
-    Annotated[float, Field(gt=0)] | None,
-    Field(
-        description="Modes above this frequency (Hz) get the mass that lowers them to it; K stays"
-    ),
-]
+NO_SCALING = {"mass_scaling_hz": "take it out: `piecewise-exact` is stable for any step"}
 
 
 class CentralDifference(Settings):
     """Central differences with prediction and correction, Eqs. (18)-(20)."""
 
     either: ClassVar = [("steps_per_round", "fraction_of_limit")]
+    replaced: ClassVar = NO_SCALING
 
     scheme: Literal["central-difference"] = Field(description="the paper's, Eqs. (18)-(20)")
     steps_per_round: StepsPerRound | None = Field(default=None, description="Steps per revolution")
     fraction_of_limit: float | None = Field(
         default=None, gt=0, le=1, description="Step over the stability limit with contact"
     )
-    mass_scaling_hz: MassScaling = None
 
 
 class PiecewiseExact(Settings):
     """Exact modes under a force constant over each step, that force implicit: always stable."""
 
+    replaced: ClassVar = NO_SCALING
+
     scheme: Literal["piecewise-exact"] = Field(
         description="exact for a contact force constant over the step, stable for any step"
     )
     steps_per_round: StepsPerRound = Field(description="Steps per revolution")
-    mass_scaling_hz: MassScaling = None
 
     @model_validator(mode="before")
     @classmethod

@@ -8,13 +8,13 @@ from typing import Annotated, Any, ClassVar, NamedTuple
 import numpy as np
 from pydantic import Field
 
-from geometry.project import Settings, fingerprint, imported_by
+from geometry.base import Settings, fingerprint, imported_by, shifted
 
 STRAINS = np.geomspace(1e-12, 1.0, 257)  # at which the slope of a law is sampled
 PROBE = 1e-3  # strain at which a liner with any strength bears
 
-Unit = Annotated[float, Field(gt=0, le=1e15, description="Unit of the law's moduli (Pa)")]
-Modulus = Annotated[float, Field(gt=0, le=1e9, description="Young's modulus (in unit_Pa)")]
+Unit = Annotated[float, Field(gt=0, le=1e9, description="Unit of the law's moduli (MPa)")]
+Modulus = Annotated[float, Field(gt=0, le=1e9, description="Young's modulus (in unit_MPa)")]
 
 
 @cache
@@ -115,17 +115,22 @@ class Law(Settings):
 
 
 class Unloading(Law):
-    """Base of the laws of this project that unload along ``E``; moduli are in ``unit_Pa``."""
+    """Base of the laws of this project that unload along ``E``; moduli are in ``unit_MPa``."""
 
     kind: str
     E: Modulus
-    unit_Pa: Unit
+    unit_MPa: Unit
+
+    @property
+    def unit_Pa(self) -> float:
+        """The unit, Pa."""
+        return shifted(self.unit_MPa, 6)
 
     @property
     def parameters(self) -> NamedTuple:
         """All numbers of the law, Pa."""
         moduli = {
-            name: value * self.unit_Pa for name, value in self if name not in ("kind", "unit_Pa")
+            name: value * self.unit_Pa for name, value in self if name not in ("kind", "unit_MPa")
         }
         return numbers_of(*moduli)(**moduli)
 

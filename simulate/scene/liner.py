@@ -4,7 +4,7 @@ from typing import ClassVar, Literal
 
 from pydantic import Field
 
-from geometry.project import Settings, SettingsError, checked, known
+from geometry.base import Settings, SettingsError, checked, known, shifted
 from simulate.scene.laws import AnyLaw
 
 STRIPS = 16  # along the chord, where the scene does not say
@@ -17,16 +17,16 @@ class Liner(Settings):
     """Abradable liner: strips of independent rods, each over an equal part of the tip's chord."""
 
     replaced: ClassVar = {
-        "strip_width_m": "strips have their widths from the tip: give liner.strips, their number"
+        "strip_width_m": "strips have their widths from the tip: give liner.strips, their number",
+        "law_in_march": "take it out: a law from Python is called, with the same result",
     }
 
     hints: ClassVar = {
-        "thickness_m": "in m: 5 mm is 5.0e-3",
-        "footprint_m": "in m: 5 mm is 5.0e-3; the arc over which one strip of the tip rubs",
+        "footprint_mm": "the arc over which one strip of the tip rubs, in mm",
     }
 
     law: AnyLaw = Field(description="Law of the rods")
-    thickness_m: float = Field(ge=1e-7, le=0.1, description="Thickness l (m)")
+    thickness_mm: float = Field(ge=1e-4, le=100, description="Thickness l (mm)")
     strips: int | None = Field(
         default=None,
         ge=1,
@@ -34,11 +34,11 @@ class Liner(Settings):
         description=f"Number of strips along the chord, of equal length; {STRIPS} without "
         "accuracy, which chooses it",
     )
-    footprint_m: float | None = Field(
+    footprint_mm: float | None = Field(
         default=None,
-        ge=1e-5,
-        le=0.3,
-        description="Arc of a strip that the tip rubs (m), the same along the chord; without it "
+        ge=0.01,
+        le=300,
+        description="Arc of a strip that the tip rubs (mm), the same along the chord; without it "
         "that which the tip covers at each place. Required for a model that does not know the "
         "thickness of its tip; not used with interface.across: 2",
     )
@@ -53,28 +53,32 @@ class Liner(Settings):
         description="When the liner is worn through: stop, or continue on the rigid casing",
     )
 
-    law_in_march: bool = Field(
-        default=False,
-        description="Compile a law from Python into the time integration, in some 12 s; otherwise "
-        "the integration calls it, at some 1.6 times the time",
-    )
-
     @checked
     def _law_in_pascals(self) -> None:
-        """Refuse moduli that are of another unit than ``unit_Pa``."""
+        """Refuse moduli that are of another unit than ``unit_MPa``."""
         unit = getattr(self.law, "unit_Pa", 0.0)
         for name, (least, largest) in RANGES.items():
             value = getattr(self.law, name, None)
             if unit and value is not None and not least <= value * unit <= largest:
                 stiffer = "; a stiffer liner is `kind: rigid`" if name == "E" else ""
                 raise SettingsError(
-                    f"is {value * unit:.3g} Pa with unit_Pa: {unit:g}; allowed from {least:g} to "
-                    f"{largest:g} Pa: liners have 1e7 to 1e11 Pa; {name} is given in unit_Pa, "
-                    f"which is 1.0e+9 for GPa{stiffer}",
+                    f"is {value * unit:.3g} Pa with unit_MPa: {unit / 1e6:g}; allowed from "
+                    f"{least:g} to {largest:g} Pa: liners have 1e7 to 1e11 Pa; {name} is given in "
+                    f"unit_MPa, which is 1000 for GPa{stiffer}",
                     key=f"law.{name}",
                     value=value,
                     allowed=(least / unit, largest / unit),
                 )
+
+    @property
+    def thickness_m(self) -> float:
+        """Thickness l, m."""
+        return shifted(self.thickness_mm, -3)
+
+    @property
+    def footprint_m(self) -> float | None:
+        """Arc of a strip that the tip rubs, m, where it is given."""
+        return self.footprint_mm and shifted(self.footprint_mm, -3)
 
     @property
     def m(self) -> int:

@@ -16,7 +16,7 @@ from typing import Any
 
 from pydantic import Field
 
-from geometry.project import SettingsError, check_settings, hashes, shown
+from geometry.base import SettingsError, check_settings, hashes, shown
 from simulate.scene.law import Law
 
 FOLDER = Path("workflow/laws")  # of the project

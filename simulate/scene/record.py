@@ -4,7 +4,7 @@ from typing import Annotated, ClassVar
 
 from pydantic import Field
 
-from geometry.project import Settings, SettingsError, checked
+from geometry.base import Settings, SettingsError, checked
 from simulate.scene.casing import HIGHEST_ORDER
 
 STEADY, GROWING, DYING_OUT, TOO_SHORT = "steady", "growing", "dying out", "too short to say"

@@ -6,9 +6,8 @@ from typing import Any, ClassVar, Literal, Self
 
 from pydantic import Field
 
-from geometry.blade import RPM
-from geometry.given import AnyBlade
-from geometry.project import Fault, Settings, SettingsError, SettingsFile, checked, known
+from geometry.base import Fault, Settings, SettingsError, SettingsFile, checked, known
+from geometry.elsewhere import AnyBlade
 from simulate.scene.casing import MOST_ROUNDS, Casing, Clearance, Gaps
 from simulate.scene.contact import Contact
 from simulate.scene.integrator import Integrator
@@ -33,9 +32,7 @@ AT_REST = (
     "gaps that change with the speed (`clearance: {at: rest}`, casing.line, a table of "
     "casing.axial_shift_um): they would jump from one speed to the next under the tip"
 )
-TRAVELLING = (
-    "casing.harmonics[].speed_rad_s: from speed to speed a harmonic that travels would jump"
-)
+TRAVELLING = "casing.harmonics[].speed_rpm: from speed to speed a harmonic that travels would jump"
 NOT_ESTIMATED = (
     "accuracy, whose errors are not estimated with it (give integrator, liner.rods_per_round and "
     "liner.strips instead)"
@@ -155,7 +152,7 @@ class Scene(SettingsFile):
 
     @property
     def no_torque(self) -> str | None:
-        """Keys for which the model has no torque (``errors.loads``); None where it has one."""
+        """Keys for which the model has no torque (``loads``); None where it has one."""
         if self.contact.profile is not None and not self.contact.tangential:
             return "contact.profile without contact.tangential"
         return "casing.harmonics that travel" if self.casing.travelling else None
@@ -314,9 +311,8 @@ def fault_of_blade(scene: Scene, blade: AnyBlade) -> Fault | None:
     highest, unit = float(speeds.given.max()), speeds.in_rad_s(f1=nan)
     if speeds.over_f1 is not None or top is None or highest * unit <= top * (1 + 1e-12):
         return None
-    slip = "; rpm are speeds.rpm" if speeds.rad_s and highest / RPM <= top else ""
     return Fault(
-        f"allowed up to {top / unit:.6g}, the highest speed of blade {scene.blade}{slip}",
+        f"allowed up to {top / unit:.6g}, the highest speed of blade {scene.blade}",
         f"speeds.{speeds.unit}",
         highest,
         {"le": top / unit},

@@ -12,7 +12,7 @@ import xarray as xr
 from numpy.typing import NDArray
 from pydantic import Field
 
-from geometry.project import Settings, SettingsError, SettingsFile, UserError, checked
+from geometry.base import Settings, SettingsError, SettingsFile, UserError, checked
 
 LEVEL = 0.95  # confidence of the intervals
 RESAMPLES = 999

@@ -6,8 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Discriminator, Field, Tag
 
-from geometry.blade import RPM
-from geometry.project import Settings, SettingsError, checked
+from geometry.base import RPM, Settings, SettingsError, checked
 
 Positive = Annotated[float, Field(gt=0)]
 
@@ -32,17 +31,10 @@ SpeedValues = Annotated[
 ]
 
 
-OVER_F1, RAD_S, OF_RPM = (1e-4, 20.0), (1.0, 1e5), (10.0, 1e6)  # slowest and fastest speed
+OVER_F1, OF_RPM = (1e-4, 20.0), (10.0, 1e6)  # slowest and fastest speed
 UNITS = {  # by key: these, and the likely slips
-    "over_f1": (OVER_F1, "0.3 is usual; speeds in rad/s are speeds.rad_s, in rpm speeds.rpm"),
-    "rad_s": (
-        RAD_S,
-        "speeds in rpm are given as speeds.rpm, over f1(0) as speeds.over_f1; 1 Hz is 6.283 rad/s",
-    ),
-    "rpm": (
-        OF_RPM,
-        "1 Hz is 60 rpm; speeds over f1(0) are given as speeds.over_f1, in rad/s as speeds.rad_s",
-    ),
+    "over_f1": (OVER_F1, "0.3 is usual; speeds in rpm are speeds.rpm"),
+    "rpm": (OF_RPM, "1 Hz is 60 rpm; speeds over f1(0) are given as speeds.over_f1"),
 }
 
 
@@ -54,7 +46,6 @@ class Speeds(Settings):
     over_f1: SpeedValues | None = Field(
         default=None, description="Speeds over f1(0), revolutions per second over Hz"
     )
-    rad_s: SpeedValues | None = Field(default=None, description="Speeds (rad/s)")
     rpm: SpeedValues | None = Field(default=None, description="Speeds (rpm)")
 
     in_turn: bool = Field(
@@ -93,7 +84,7 @@ class Speeds(Settings):
 
     def in_rad_s(self, f1: float) -> float:
         """Their unit, rad/s; ``f1`` in Hz."""
-        return {"over_f1": 2 * np.pi * f1, "rad_s": 1.0, "rpm": 1 / RPM}[self.unit]
+        return {"over_f1": 2 * np.pi * f1, "rpm": 1 / RPM}[self.unit]
 
     def omega(self, f1: float) -> NDArray[np.float64]:
         """Omega (speeds,), rad/s; ``f1`` in Hz."""

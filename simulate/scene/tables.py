@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
 
-from geometry.project import (
+from geometry.base import (
+    RPM,
     Settings,
     SettingsError,
     check_settings,
@@ -24,20 +25,24 @@ from geometry.project import (
     shown,
 )
 
-type Columns = Mapping[str, tuple[str, float]]  # by the name of a column: key, and factor to SI
+# by the name of a column: key, and factor to its unit
+type Columns = Mapping[str, tuple[str, float]]
 
-SPEEDS: Columns = {name: (name, 1.0) for name in ("speed_over_f1", "speed_rad_s")}
-LENGTHS = {"m": 1.0, "mm": 1e-3, "um": 1e-6}
-GROWTHS: Columns = {f"growth_{unit}": ("growth_m", metres) for unit, metres in LENGTHS.items()}
+SPEEDS: Columns = {
+    **{name: (name, 1.0) for name in ("speed_over_f1", "speed_rpm")},
+    "speed_rad_s": ("speed_rpm", RPM),
+}
+LENGTHS = {"m": 1e6, "mm": 1e3, "um": 1.0}  # in um
+GROWTHS: Columns = {f"growth_{unit}": ("growth_um", um) for unit, um in LENGTHS.items()}
 ANGLE: Columns = {"theta_deg": ("theta_deg", 1.0)}
-DEPTHS: Columns = {f"depth_{unit}": ("depth_m", metres) for unit, metres in LENGTHS.items()}
-SHIFTS: Columns = {f"shift_{unit}": ("shift_um", 1e6 * metres) for unit, metres in LENGTHS.items()}
+DEPTHS: Columns = {f"depth_{unit}": ("depth_um", um) for unit, um in LENGTHS.items()}
+SHIFTS: Columns = {f"shift_{unit}": ("shift_um", um) for unit, um in LENGTHS.items()}
 Z: Columns = {"z_mm": ("z_mm", 1.0)}
 RADII: Columns = {"r_mm": ("r_mm", 1.0)}
 RADIANS, FEW = 6.3, 2  # last of more than so many angles, where they are not degrees
 WIDEST, CHANGE = 180.0, 0.05  # degrees from the last angle to the first, over a change of depth
 POINTS = 8192  # angles around the casing at which a function is sampled
-LARGEST_DEPTH = 0.1  # m: a larger one is of another unit
+LARGEST_DEPTH = 1e5  # um: a larger one is of another unit
 
 
 def from_csv(model: type[Settings], x: Columns, y: Columns) -> BeforeValidator:
@@ -60,7 +65,7 @@ def from_csv(model: type[Settings], x: Columns, y: Columns) -> BeforeValidator:
 
 
 def _columns(lines: list[tuple[int, list[str]]], x: Columns, y: Columns) -> dict[str, list[float]]:
-    """Both columns of a CSV file, in SI, by the keys that their names stand for."""
+    """Both columns of a CSV file, in their units, by the keys that their names stand for."""
     (at, header), *rows = lines or [(1, [])]
     if len(header) != 2 or header[0] not in x or header[1] not in y:
         raise ValueError(
@@ -69,7 +74,7 @@ def _columns(lines: list[tuple[int, list[str]]], x: Columns, y: Columns) -> dict
         )
     points = [numbers(cells, header, line) for line, cells in rows]
     columns = (x[header[0]], y[header[1]])
-    return {key: [point[i] * si for point in points] for i, (key, si) in enumerate(columns)}
+    return {key: [point[i] * unit for point in points] for i, (key, unit) in enumerate(columns)}
 
 
 def ascending(
@@ -108,43 +113,45 @@ AROUND = ", from 0 at least to 360 at most"
 class OverSpeed(Points):
     """Base of a length over the speed, linear between its speeds: the last of its keys."""
 
-    either: ClassVar = [("speed_over_f1", "speed_rad_s")]
+    either: ClassVar = [("speed_over_f1", "speed_rpm")]
 
     speed_over_f1: Annotated[tuple[float, ...], FROM_0] | None = Field(
         default=None,
         description="Speeds over f1(0), ascending; or FILE.csv in place of the table, with columns "
-        "speed_over_f1 or speed_rad_s, and the length in m, mm or um: growth_um, shift_um",
+        "speed_over_f1 or speed_rpm, and the length in m, mm or um: growth_um, shift_um",
     )
-    speed_rad_s: Annotated[tuple[float, ...], FROM_0] | None = Field(
-        default=None, description="The same in rad/s, instead"
+    speed_rpm: Annotated[tuple[float, ...], FROM_0] | None = Field(
+        default=None, description="The same in rpm, instead"
     )
 
     def _speeds(self) -> tuple[float, ...]:
-        return self.speed_over_f1 or known(self.speed_rad_s, "speed_rad_s")
+        return self.speed_over_f1 or known(self.speed_rpm, "speed_rpm")
+
+    def _unit(self, f1: float) -> float:
+        """1 rad/s in the unit of the speeds; ``f1`` in Hz."""
+        return RPM if self.speed_over_f1 is None else 1 / (2 * np.pi * f1)
 
     def range(self, f1: float) -> tuple[float, float]:
         """First and last speed, rad/s; ``f1`` in Hz."""
-        unit = 2 * np.pi * f1 if self.speed_over_f1 is not None else 1.0
-        speeds = self._speeds()
-        return unit * speeds[0], unit * speeds[-1]
+        speeds, unit = self._speeds(), self._unit(f1)
+        return speeds[0] / unit, speeds[-1] / unit
 
     def at(self, Omega: float, f1: float) -> float:
         """The length at ``Omega`` (rad/s), in the unit of its key; ``f1`` in Hz."""
-        speed = Omega / (2 * np.pi * f1) if self.speed_over_f1 is not None else Omega
         *_, (_, values) = self
-        return float(np.interp(speed, self._speeds(), values))
+        return float(np.interp(Omega * self._unit(f1), self._speeds(), values))
 
 
 class Thermal(OverSpeed):
     """Growth of the tip against the casing over the speed. The growth reduces the gap.
 
-    >>> table = Thermal(speed_over_f1=[0, 0.4], growth_m=[0, 2e-5])
+    >>> table = Thermal(speed_over_f1=[0, 0.4], growth_um=[0, 20])
     >>> round(table.at(0.5 * 0.4 * 2 * np.pi * 250.0, f1=250.0), 9)
-    1e-05
+    10.0
     """
 
-    growth_m: tuple[float, ...] = Field(
-        min_length=2, description="Growth of the tip's radius less growth of the casing (m)"
+    growth_um: tuple[float, ...] = Field(
+        min_length=2, description="Growth of the tip's radius less growth of the casing (um)"
     )
 
 
@@ -206,7 +213,7 @@ class RampTable(Points):
 class Table(Points):
     """Distortion over one revolution, linear between the angles and from the last to the first.
 
-    >>> bump = Table(theta_deg=[0, 90, 180], depth_m=[0, 4e-5, 0])
+    >>> bump = Table(theta_deg=[0, 90, 180], depth_um=[0, 40, 0])
     >>> bump.inward(np.radians([45.0, 90.0, 270.0])).round(9)
     array([2.e-05, 4.e-05, 0.e+00])
     """
@@ -214,23 +221,25 @@ class Table(Points):
     theta_deg: Annotated[list[float], ascending(AROUND, last=360)] = Field(
         min_length=2,
         description="Angles, ascending, from 0 to 360; or `table: FILE.csv`, with columns "
-        "theta_deg and depth_m, depth_mm or depth_um",
+        "theta_deg and depth_um, depth_mm or depth_m",
     )
-    depth_m: list[float] = Field(min_length=2, description="Inward distortion at these angles (m)")
+    depth_um: list[float] = Field(
+        min_length=2, description="Inward distortion at these angles (um)"
+    )
 
     @checked
     def _one_round(self) -> None:
-        (first, *_, last), depth = self.theta_deg, self.depth_m
+        (first, *_, last), depth = self.theta_deg, self.depth_um
         if (first, last) == (0, 360) and depth[0] != depth[-1]:
             raise ValueError(
                 f"depths at 0 and 360 deg, which are one place, differ: {depth[0]:g} and "
-                f"{depth[-1]:g} m: leave the row at 360 out, or give both their mean"
+                f"{depth[-1]:g} um: leave the row at 360 out, or give both their mean"
             )
         if (deepest := max(map(abs, depth))) > LARGEST_DEPTH:
             raise SettingsError(
-                f"allowed up to {LARGEST_DEPTH:g} m: is the column in mm or um? then name it "
+                f"allowed up to {LARGEST_DEPTH:g} um: is the column in mm or um? then name it "
                 "depth_mm or depth_um",
-                key="depth_m",
+                key="depth_um",
                 value=deepest,
                 allowed={"le": LARGEST_DEPTH},
             )
@@ -244,22 +253,22 @@ class Table(Points):
         rise = abs(depth[0] - depth[-1])
         if first + 360.0 - last > WIDEST and rise > CHANGE * np.ptp(depth):
             raise SettingsError(
-                f"no depth from {last:g} on to {first:g} deg, where it changes by {rise:g} m: give "
-                "angles all around, 0 to 360",
+                f"no depth from {last:g} on to {first:g} deg, where it changes by {rise:g} um: "
+                "give angles all around, 0 to 360",
                 key="theta_deg",
             )
 
     def inward(self, theta: NDArray[np.float64]) -> NDArray[np.float64]:
         """d(theta), m; ``theta`` in rad."""
-        return np.interp(np.degrees(theta), self.theta_deg, self.depth_m, period=360.0)
+        return np.interp(np.degrees(theta), self.theta_deg, self.depth_um, period=360.0) / 1e6
 
 
 def table_of(function: Callable[[NDArray[np.float64]], Any]) -> dict[str, list[float]]:
-    """Angles (deg) and depths (m) of a function d(theta), rad to m, sampled at ``POINTS`` angles.
+    """Angles (deg) and depths (um) of a function d(theta), rad to m, sampled at ``POINTS`` angles.
 
     >>> table = table_of(lambda theta: 2e-5 * np.cos(2 * theta))
-    >>> len(table["theta_deg"]), table["depth_m"][0]
-    (8192, 2e-05)
+    >>> len(table["theta_deg"]), table["depth_um"][0]
+    (8192, 20.0)
 
     Raises
     ------
@@ -272,7 +281,7 @@ def table_of(function: Callable[[NDArray[np.float64]], Any]) -> dict[str, list[f
         raise ValueError(
             f"the function returns depths of shape {depth.shape} for angles of shape {theta.shape}"
         )
-    return {"theta_deg": np.degrees(theta).tolist(), "depth_m": depth.tolist()}
+    return {"theta_deg": np.degrees(theta).tolist(), "depth_um": (1e6 * depth).tolist()}
 
 
 AnyTable = Annotated[

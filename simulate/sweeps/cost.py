@@ -13,7 +13,7 @@ from math import ceil
 
 import numpy as np
 
-from geometry.project import WARNING, duration
+from geometry.base import WARNING, duration
 from geometry.tip import JUDGED
 from rom.model import Rom
 from simulate.contact.places import mean_footprint

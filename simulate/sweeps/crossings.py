@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from geometry.blade import RPM
+from geometry.base import RPM
 from rom.model import Rom
-from simulate.sweeps.plain import CriticalSpeed
+from simulate.sweeps.result_types import CriticalSpeed
 
 BEYOND = 1.25  # of Omega_m: no farther than there are frequencies extrapolated
 POINTS = 33  # speeds between which a mode meets an order once at most

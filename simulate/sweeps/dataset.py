@@ -14,7 +14,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from geometry.project import (
+from geometry.base import (
     Provenance,
     ProvenanceError,
     SettingsError,
@@ -32,11 +32,10 @@ from rom.polynomial import evaluate
 from simulate.contact.gaps import given_gaps
 from simulate.contact.places import SHARES, closing_rows
 from simulate.errors.accuracy import Choice
-from simulate.errors.loads import torque_of_rounds
 from simulate.errors.neighbours import GAP_CHANGE
 from simulate.errors.observables import NUMBERS, last_spectrum
 from simulate.errors.run import Run
-from simulate.errors.signals import Lines, lines
+from simulate.loads import torque_of_rounds
 from simulate.marching import STATUSES, WITH_RESULT, FinalState, strip_stiffness
 from simulate.marching.friction import growth_rate, mu_crit
 from simulate.marching.setup import sliding_modes, with_lean
@@ -45,7 +44,8 @@ from simulate.marching.trend import further
 from simulate.scene import GROWING, LEADING, OF_LAST_ROUNDS, Scene
 from simulate.scene.laws.table import Tabulated
 from simulate.scene.own_laws import of_result
-from simulate.sweeps.plain import Course
+from simulate.signals import Lines, lines
+from simulate.sweeps.result_types import Course
 
 type Entry = tuple[str | tuple[str, ...], Any, dict[str, Any]]
 
@@ -244,7 +244,7 @@ def save(dataset: xr.Dataset, path: str | Path) -> None:
 
     Raises
     ------
-    geometry.project.errors.WriteError
+    geometry.base.errors.WriteError
         When it cannot be written.
     """
     # the width of texts is that of these runs, not of the block that the first ones were read from

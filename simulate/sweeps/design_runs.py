@@ -20,8 +20,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from geometry.blade import ORDERS
-from geometry.project import (
+from geometry.base import (
     ProvenanceError,
     Say,
     UserError,
@@ -31,6 +30,7 @@ from geometry.project import (
     require_format,
     silent,
 )
+from geometry.blade import ORDERS
 from geometry.stored import read, write as save
 from rom.model import Rom
 from simulate.contact.gaps import given_gaps
@@ -38,16 +38,16 @@ from simulate.errors.accuracy import Choice
 from simulate.errors.checked import checked
 from simulate.errors.observables import NUMBERS, last_spectrum, numbers
 from simulate.errors.run import Run
-from simulate.errors.signals import amplitude
 from simulate.marching import STATUSES, WITH_RESULT, check_scene
 from simulate.scene import LEADING, TRENDS, Scene
 from simulate.scene.design import Design, refuse, value_at
+from simulate.signals import amplitude
 from simulate.sweeps import dataset
-from simulate.sweeps.closing_in import further
 from simulate.sweeps.dataset import entry, require_numbers
 from simulate.sweeps.over_speeds import check_steps, march_one, set_up
 from simulate.sweeps.peak import Responses, only_at
-from simulate.sweeps.plausible import doubts, warn_of
+from simulate.sweeps.sweep import further
+from simulate.sweeps.unusual import doubts, warn_of
 
 SAVED_EVERY = 120.0  # s: lost at most when the process is killed, and one row
 FORMAT = 2
@@ -108,7 +108,7 @@ class Engine:
 
         Raises
         ------
-        geometry.project.errors.SettingsError
+        geometry.base.errors.SettingsError
             When scenes do not fit the model: one line for each fault, with its rows.
         """
         choice = choice and replace(choice, runs={})  # the pilot's runs are those of the base
@@ -131,7 +131,7 @@ class Engine:
 
         Raises
         ------
-        geometry.project.errors.SettingsError
+        geometry.base.errors.SettingsError
             When there are some: one line for each fault, with its rows.
         """
         faults = []
@@ -257,7 +257,7 @@ def march_block(
 
     Raises
     ------
-    geometry.project.errors.SettingsError
+    geometry.base.errors.SettingsError
         When the step of a row is above its limit, before any run.
     """
     folder, keys, rows = Path(folder), engine.keys, range(block, len(engine.scenes), blocks)

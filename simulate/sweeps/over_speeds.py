@@ -6,7 +6,7 @@ from time import perf_counter
 
 import xarray as xr
 
-from geometry.project import Say, progress, silent
+from geometry.base import Say, progress, silent
 from rom.model import Rom
 from simulate.errors.accuracy import Choice, march_to_accuracy
 from simulate.errors.checked import checked
@@ -14,12 +14,12 @@ from simulate.errors.neighbours import judged
 from simulate.errors.resolution import check_resolution
 from simulate.errors.run import Case, Run
 from simulate.marching import FinalState, Worn, check_scene, make_kernel, prepare
-from simulate.marching.checks import require_sweep
+from simulate.marching.refusals import require_sweep
 from simulate.scene import Scene
-from simulate.sweeps.before import before
+from simulate.sweeps.continued import before
 from simulate.sweeps.cost import cost
 from simulate.sweeps.dataset import attributes, of_run
-from simulate.sweeps.plausible import doubts, warn_of
+from simulate.sweeps.unusual import doubts, warn_of
 
 LONG = 1.0  # s, wall time above which a compilation is logged
 

@@ -19,11 +19,11 @@ from geometry.blade import MODES, ORDERS
 from geometry.tip import EDGES, JUDGED
 from rom.model import Rom
 from simulate.errors.observables import Numbers
-from simulate.errors.signals import amplitude, leading_gap, maxima
 from simulate.scene import LEADING, Scene, side_bands
+from simulate.signals import amplitude, leading_gap, maxima
 from simulate.sweeps.crossings import crossing
 from simulate.sweeps.dataset import scene_of
-from simulate.sweeps.plain import NO_CROSSING, Course, mode_name, order_name
+from simulate.sweeps.result_types import NO_CROSSING, Course, mode_name, order_name
 
 # Speeds over the crossing at which a peak may lie: contact stiffens, a tangential force may soften
 STIFFENED, SOFTENED, HIGHEST = 0.97, 0.93, 1.4

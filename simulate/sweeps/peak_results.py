@@ -27,7 +27,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from fem.node_stress import NodeStress
-from geometry.project import Say, SettingsError, known, progress, silent
+from geometry.base import Say, SettingsError, known, progress, silent
 from geometry.tip import EDGES
 from rom.coarser import coarser
 from rom.model import Rom, RomError
@@ -39,11 +39,11 @@ from simulate.errors.neighbour import CHAOTIC, ONE_MOTION, TWO_MOTIONS, Neighbou
 from simulate.errors.neighbours import ITSELF, TWIN, raised
 from simulate.errors.observables import Numbers, numbers
 from simulate.errors.run import Case, as_long
-from simulate.errors.signals import gaps_at_ends, leading_gap, leading_wear, lobe_count
 from simulate.errors.stressed import OF_STRESS, at_node, mesh_errors, stress_of, through
 from simulate.marching import SENSITIVE_FROM, WITH_RESULT, prepare
 from simulate.scene import LEADING, OF_LAST_ROUNDS, Scene
-from simulate.sweeps.before import before
+from simulate.signals import gaps_at_ends, leading_gap, leading_wear, lobe_count
+from simulate.sweeps.continued import before
 from simulate.sweeps.dataset import checks, course, scene_of, statuses
 from simulate.sweeps.peak import Peak, Responses, along_order, reported, rise
 
@@ -76,7 +76,7 @@ def results(
     ``second_order``, ``stress``: of the blade, and as of ``workflow.stress.write``, where known;
     ``peaks``: others than those reported.
 
-    ``start``: as of ``closing_in.sweep``. Runs in turn are not repeated: their numbers have no
+    ``start``: as of ``sweep.sweep``. Runs in turn are not repeated: their numbers have no
     uncertainty.
     """
     scene = to_march(runs, stress)

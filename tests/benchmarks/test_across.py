@@ -8,7 +8,7 @@ from time import perf_counter
 
 from scenes import RUBBING, of_steps, scene
 
-from fem.interface import interface_of
+from fem.interface_operator import interface_of
 from fem.solid import read_solid
 from rom.reduce import reduce
 from simulate.marching import march, prepare
@@ -27,7 +27,7 @@ def test_two_rows_against_twice_the_strips(
         blade = coarse_blade.but(interface={"patches": strips, "across": across})
         of = vars(interface_of(solid, blade))
         rom, _ = reduce(replace(coarse_matrices, **of), blade.basis, "r")
-        more = {"liner__strips": strips, "liner__footprint_m": None, "rounds": 10}
+        more = {"liner__strips": strips, "liner__footprint_mm": None, "rounds": 10}
         case = scene(**RUBBING | more, integrator=of_steps(4096), liner__rods_per_round=2039)
         runs[strips, across] = [(case, prepare(case, rom, of * rom.omega1)) for of in SPEEDS]
     best = dict.fromkeys(runs, float("inf"))

@@ -40,9 +40,6 @@ def test_laws_of_ones_own(scheme, coarse_rom, tmp_path, monkeypatch, capsys):
         "shipped law": seconds(lambda: make_kernel(*case())),
         "own law, called": seconds(lambda: make_kernel(*case(liner__law=own))),
         "another, called": seconds(lambda: make_kernel(*case(liner__law=other))),
-        "own law, in the march": seconds(
-            lambda: make_kernel(*case(liner__law=own, liner__law_in_march=True))
-        ),
     }
     runs = {"shipped": case(), "called": case(liner__law=own)}
     times = [{name: seconds(lambda run=run: march(*run)) for name, run in runs.items()}

@@ -19,14 +19,14 @@ from simulate.marching import march
 TURNS = 12
 INTEGRATORS = SCHEMES | {"piecewise-exact": of_steps(8192)}
 BARE = {"samples_per_round": 64, "wear": False, "history": {"chord": [0.0625]}}
-ROUNDED = {"contact": {"profile": {"edge_drop_m": 2e-6}}}
+ROUNDED = {"contact": {"profile": {"edge_drop_um": 2}}}
 VARIANTS = {
     "spectrum only": {"record": {"samples_per_round": 64, "wear": False, "spectrum_rounds": 2}},
     "wear only": {"record": {"samples_per_round": 64, "wear": True}},
     "finer samples (512)": {"record": BARE | {"samples_per_round": 512}},
     "contact force": {"record": BARE | {"contact_force": True}},
     "states, last round": {"record": BARE | {"states_rounds": 1}},
-    "elastic law": {"liner__law": {"kind": "elastic", "E": 1.0, "unit_Pa": 2e9}},
+    "elastic law": {"liner__law": {"kind": "elastic", "E": 1.0, "unit_MPa": 2000}},
     "no contact": {"liner__law": {"kind": "none"}},
     "profile": ROUNDED,
     "tangential part": {"contact": ROUNDED["contact"] | {"tangential": True}},

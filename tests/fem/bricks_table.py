@@ -21,11 +21,11 @@ import numpy as np  # noqa: E402
 from bricks import Bricks  # noqa: E402
 
 from fem.assemble import assemble  # noqa: E402
+from geometry.base import ROOT, MeshWarning, check_settings, write_json  # noqa: E402
 from geometry.blade import Blade  # noqa: E402
 from geometry.mesh import build_mesh  # noqa: E402
-from geometry.project import ROOT, MeshWarning, check_settings, write_json  # noqa: E402
 from rom.modes import ShiftInvert  # noqa: E402
-from workflow.study.mesh import common_order, limits  # noqa: E402
+from workflow.study.mesh_convergence import common_order, limits  # noqa: E402
 
 JSON = HERE / "bricks.json"
 SIZES = (2**0.5, 1.0, 0.5**0.5)  # of tetrahedra over the blade's own: the finest of its mesh study
@@ -55,7 +55,7 @@ def main() -> None:
     rows += [row for grid, kinds in GRIDS.items() for row in of_bricks(blade, grid, kinds)]
     found = {
         "versions": {"ccx": calculix.version()} | {name: version(name) for name in PACKAGES},
-        "speed_rad_s": blade.max_speed_rad_s,
+        "speed_rad_s": blade.top_speed,
         "limit_Hz": limit(sizes, rows[: len(sizes)]),
         "rows": rows,
     }
@@ -99,7 +99,7 @@ def ours(blade: Blade, kind: str, file: Path | None = None) -> Row:
         summary = build_mesh(blade, mesh, file)
         at_rest = modes(blade, mesh, 0.0)
         seconds = process_time() - start
-        both = [at_rest, modes(blade, mesh, blade.max_speed_rad_s)]
+        both = [at_rest, modes(blade, mesh, blade.top_speed)]
     return told("Tiprub", kind, summary.cells, summary.nodes, both, seconds)
 
 
@@ -113,7 +113,7 @@ def modes(blade: Blade, mesh: Path, speed: float) -> np.ndarray:
 def theirs(blade: Blade, cells: calculix.Cells) -> Row:
     """Solve the same cells by CalculiX."""
     at_rest, at_speed = (
-        calculix.frequencies(cells, blade.material, speed) for speed in (0.0, blade.max_speed_rad_s)
+        calculix.frequencies(cells, blade.material, speed) for speed in (0.0, blade.top_speed)
     )
     both = [at_rest.frequencies, at_speed.frequencies]
     sizes = len(cells.nodes), len(cells.points)

@@ -18,9 +18,9 @@ from fem.fatigue import FIVE, von_mises
 from fem.fields import disagreement, dofs_at, linearised
 from fem.solid import make_solid, read_solid, small_strain
 from fem.worst_node import cycles, worst
+from geometry.base import SettingsError
 from geometry.blade import Material, Stress
 from geometry.mesh import build_mesh
-from geometry.project import SettingsError
 from geometry.shape import session
 
 STILL = Material(young_modulus_GPa=200, poisson_ratio=0.0, density_kg_m3=7800)

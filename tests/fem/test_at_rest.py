@@ -12,8 +12,7 @@ from fem.at_rest import build_mesh_at_rest
 from fem.fields import dofs_at
 from fem.prestress import nonlinear_states
 from fem.solid import read_solid
-from geometry.blade import RPM
-from geometry.project import MeshError
+from geometry.base import RPM, MeshError
 from rom.modes import ShiftInvert
 
 OMEGA = 640.0  # rad/s

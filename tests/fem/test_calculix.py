@@ -8,7 +8,7 @@ import pytest
 import rotor67
 import rotor67_rub
 
-from geometry.project import read_json
+from geometry.base import read_json
 
 needs_ccx = pytest.mark.skipif(calculix.CCX is None, reason="ccx is not here (calculix-ccx)")
 

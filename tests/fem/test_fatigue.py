@@ -8,8 +8,8 @@ from scipy.spatial.transform import Rotation
 from fem.fatigue import FIVE, allowed, damage, margin, uniaxial, von_mises
 from fem.fields import TENSOR
 from fem.worst_node import cycles
+from geometry.base import SettingsError, check_settings
 from geometry.blade import Fatigue
-from geometry.project import SettingsError, check_settings
 
 FULL = np.array([(0, 3, 5), (3, 1, 4), (5, 4, 2)])  # the tensor of its six components
 PHASE = 2 * np.pi * np.arange(48) / 48

@@ -7,9 +7,9 @@ import pytest
 from refused import refused
 
 from fem.fields import TENSOR, gauge_rows, grid, linearised, stress
+from geometry.base import SettingsError
 from geometry.blade import Frame, SourceFile
 from geometry.frame import axes
-from geometry.project import SettingsError
 from rom.polynomial import evaluate, interpolate
 from rom.reconstruct import Basis
 

@@ -17,7 +17,7 @@ from numpy.polynomial.legendre import leggauss
 from scipy.optimize import brentq
 from scipy.sparse.linalg import splu
 
-from fem.interface import interface_of
+from fem.interface_operator import interface_of
 from fem.prestress import linear_states
 from geometry.hats import hat_nodes, hats, middles
 

@@ -7,9 +7,9 @@ from brick_files import FORMATS, to_write
 from bricks import ENDS, Bricks
 
 from fem.assemble import assemble
+from geometry.base import MeshWarning
 from geometry.import_mesh import eased
 from geometry.mesh import build_mesh
-from geometry.project import MeshWarning
 from geometry.shape import session
 from geometry.split import Block, split
 from rom.modes import ShiftInvert
@@ -58,7 +58,7 @@ def test_own_mesh_at_top_speed_with_the_same_interface(
     path = tmp_path / "blade.msh"
     path.write_bytes(coarse_mesh.mesh.read_bytes())
     blade = exports.as_meshed(coarse_blade, "blade.msh", "root", "tip", unit="m")
-    found, matrices = read_back(blade, path, [0.0, blade.max_speed_rad_s])
+    found, matrices = read_back(blade, path, [0.0, blade.top_speed])
     np.testing.assert_allclose(found, expected, rtol=1e-8)  # measured 3e-11
     np.testing.assert_allclose(matrices.camber, coarse_matrices.camber, atol=1e-14)
     assert (
@@ -83,7 +83,7 @@ def test_other_axes_are_the_same_blade(hand, coarse_blade, parts, expected, tmp_
     exports.write_inp(tmp_path / "blade.inp", turned, cells, parts.facets)
     frame = {"downstream": "x", "radial": "-y", "rotation": hand}
     blade = exports.as_meshed(coarse_blade, "blade.inp", frame=frame)
-    found, _ = read_back(blade, tmp_path / "blade.inp", [blade.max_speed_rad_s])
+    found, _ = read_back(blade, tmp_path / "blade.inp", [blade.top_speed])
     np.testing.assert_allclose(found[0], expected[1], rtol=1e-8)  # measured 4e-11
 
 

@@ -8,7 +8,7 @@ import ufl
 from dolfinx import fem
 from dolfinx.mesh import locate_entities_boundary, meshtags
 
-from fem.interface import interface_of
+from fem.interface_operator import interface_of
 from geometry.hats import hat_nodes, hats, middles
 from geometry.interface import tip_of
 from geometry.profile import profile_at

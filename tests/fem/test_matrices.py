@@ -10,10 +10,10 @@ from scipy.sparse import csr_matrix, identity, random_array
 from scipy.sparse.linalg import eigsh
 
 from fem.assemble import assemble
-from fem.interface import interface_of
+from fem.interface_operator import interface_of
 from fem.matrices import CODE, Matrices
 from fem.prestress import mass
-from geometry.project import Provenance, ProvenanceError, code_hash, file_hash, seal
+from geometry.base import Provenance, ProvenanceError, code_hash, file_hash, seal
 
 
 @pytest.mark.parametrize("prestress", ["linear", "nonlinear"])

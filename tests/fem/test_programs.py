@@ -21,15 +21,15 @@ from ufl import TestFunction, TrialFunction, dx, inner
 
 from fem.assemble import assemble
 from fem.deck import Deck, deck_of
-from fem.given import GivenError, read_matrices
+from fem.elsewhere import ElsewhereError, read_matrices
 from fem.matrix_files import read_matrix
 from fem.solid import read_solid
+from geometry.base import ROOT, UserError, check_settings
 from geometry.blade import METRES, Frame, MeshFile, MeshGeometry
+from geometry.elsewhere import MatricesElsewhere
 from geometry.file_physics import UNITS
 from geometry.frame import rotation
-from geometry.given import GivenMatrices
 from geometry.mesh import build_mesh
-from geometry.project import ROOT, UserError, check_settings
 from geometry.tetrahedra import EDGES
 from rom.modes import ShiftInvert
 from rom.reduce import reduce
@@ -56,7 +56,7 @@ def settings(mesh, M, K, **others):
     keys = {"M": M, "K": K if isinstance(K, dict) else {0.0: K}, "mesh_file": mesh}
     top = {} if isinstance(K, dict) else {"max_speed_rad_s": 500.0}
     tip = {"patches": 8, "across": 1}
-    return check_settings(GivenMatrices, {"full_matrices": keys} | tip | top | others, "test")
+    return check_settings(MatricesElsewhere, {"full_matrices": keys} | tip | top | others, "test")
 
 
 def frequencies(M, K, count=10):
@@ -166,7 +166,7 @@ def test_file_that_is_cut_short_is_refused(cut, file, of_calculix):
         text = text.rstrip("\n")
     path.write_text(CUT[cut](text))
     given = settings(of.mesh, *files)
-    refused(GivenError, read_matrices, given, "given", of.folder, match=r"job\..*cut short\?")
+    refused(ElsewhereError, read_matrices, given, "given", of.folder, match=r"job\..*cut short\?")
 
 
 def refuse(of, program, match, mesh=None, **spoiled):
@@ -257,7 +257,7 @@ def test_one_triangle_needs_its_word_in_matrix_market_alone(of_calculix):
     mmwrite(of.folder / "K.mtx", triu(K), symmetry="general", precision=17)
     given = settings(of.mesh, "M.mtx", "K.mtx")
     refused(
-        GivenError, read_matrices, given, "given", of.folder, match="not symmetric.*`symmetric`"
+        ElsewhereError, read_matrices, given, "given", of.folder, match="not symmetric.*`symmetric`"
     )
 
 
@@ -283,7 +283,7 @@ def test_one_triangle_needs_its_word_in_matrix_market_alone(of_calculix):
 )
 def test_file_of_another_kind_is_refused(file, text, fault, tmp_path):
     (tmp_path / file).write_text(text)
-    refused(GivenError, read_matrix, tmp_path / file, "K", match=fault)
+    refused(ElsewhereError, read_matrix, tmp_path / file, "K", match=fault)
 
 
 HEAD = "%%MatrixMarket matrix {} {} {}\n% by hand\n2 2 2\n{}"
@@ -345,7 +345,7 @@ def test_exponents_of_fortran_are_read(file, text, tmp_path):
 def test_entries_that_would_be_lost_are_refused(file, text, fault, tmp_path):
     (tmp_path / file).write_text(text)
     (tmp_path / "K.dof").write_text("1.1\n1.2\n")
-    refused(GivenError, read_matrix, tmp_path / file, "K", match=fault)
+    refused(ElsewhereError, read_matrix, tmp_path / file, "K", match=fault)
 
 
 def test_directions_are_those_of_the_file(tmp_path):
@@ -492,7 +492,7 @@ def test_example_of_the_page(coarse_mesh, tmp_path):
         re.search(rf"```{kind}\n(.*?)```", PAGE, re.DOTALL)[1] for kind in ("bash", "yaml")
     )
     subprocess.run(["bash", "-e", "-c", script], cwd=tmp_path, check=True, capture_output=True)
-    given = check_settings(GivenMatrices, yaml.safe_load(blade), "the page")
+    given = check_settings(MatricesElsewhere, yaml.safe_load(blade), "the page")
     fom = read_matrices(given, "mine", tmp_path)
     assert list(fom.speeds) == [0, 325, 563, 650]
     assert frequencies(fom.M, fom.K[0])[0] == pytest.approx(259.310, rel=1e-5)

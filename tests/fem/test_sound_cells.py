@@ -16,10 +16,10 @@ from refused import refused
 from scipy.sparse.linalg import eigsh
 
 from fem.assemble import assemble
+from geometry.base import MeshError, MeshWarning, check_settings
 from geometry.blade import Blade
 from geometry.jacobians import of_tetrahedra
 from geometry.mesh import build_mesh
-from geometry.project import MeshError, MeshWarning, check_settings
 from geometry.shape import session
 from geometry.split import Block, flat_corners_first, split
 from geometry.tetrahedra import EDGES

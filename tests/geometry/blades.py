@@ -5,10 +5,10 @@ from pathlib import Path
 import meshio
 import numpy as np
 
+from geometry.base import check_settings
 from geometry.blade import SOURCES, Blade, Sections
 from geometry.interface import tip_of
 from geometry.profile import Airfoil, profile_at
-from geometry.project import check_settings
 from geometry.tip import cartesian
 
 

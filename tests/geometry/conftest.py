@@ -5,8 +5,8 @@ import pytest
 from exports import as_meshed
 from refused import refused
 
+from geometry.base import MeshError
 from geometry.mesh import build_mesh
-from geometry.project import MeshError
 
 
 @pytest.fixture(scope="module")

@@ -5,8 +5,8 @@ from typing import NamedTuple
 import meshio
 import numpy as np
 
+from geometry.base import check_settings
 from geometry.blade import Blade
-from geometry.project import check_settings
 
 # corners 0 and 1 exchanged, for a mirrored cell
 MIRRORED = [1, 0, 2, 3, 4, 6, 5, 8, 7, 9]

@@ -10,10 +10,10 @@ from mapdl_archive import Archive, save_as_archive
 from refused import refused
 
 from geometry.ansys import read_archive
+from geometry.base import ROOT, MeshError, MeshWarning
 from geometry.blade import Blade, Material
 from geometry.file_physics import FileMaterial
 from geometry.mesh import build_mesh
-from geometry.project import ROOT, MeshError, MeshWarning
 
 BLADES = ROOT / "workflow/blades"
 SOLID = {8: 185, 20: 186}  # by the number of nodes

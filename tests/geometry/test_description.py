@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pytest
 
-from geometry.project import counted, duration, remaining
+from geometry.base import counted, duration, remaining
 
 
 def test_span_radius_and_mass_are_those_of_the_blade(coarse_blade, coarse_mesh):

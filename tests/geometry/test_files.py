@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from refused import refused
 
-from geometry.project import (
+from geometry.base import (
     ProvenanceError,
     WriteError,
     files,
@@ -59,7 +59,7 @@ def test_two_processes_do_not_share_a_temporary_name(tmp_path, monkeypatch):
 
 KILLED = """
 import os, signal, sys
-from geometry.project import whole
+from geometry.base import whole
 with whole(sys.argv[1]) as temporary:
     temporary.write_text("half")
     os.kill(os.getpid(), signal.SIGKILL)

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from refused import refused
 
+from geometry.base import MeshError
 from geometry.blade import Frame, SourceFile
 from geometry.frame import rotation, to_blade, to_file
-from geometry.project import MeshError
 
 AXES = ["x", "-x", "y", "-y", "z", "-z"]
 UNIT = {

@@ -9,9 +9,9 @@ from blades import given, nodes_of
 from refused import refused
 
 import geometry.generate
+from geometry.base import MeshError, MeshWarning
 from geometry.generate import VOLUME_TOLERANCE, generate, volume
 from geometry.mesh import build_mesh
-from geometry.project import MeshError, MeshWarning
 from geometry.shape import jacobian_ratios, session
 
 

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from exports import MIRRORED, as_meshed, same_facets
 
+from geometry.base import MeshWarning, check_settings
 from geometry.blade import Blade
 from geometry.mesh import build_mesh
-from geometry.project import MeshWarning, check_settings
 from geometry.shape import session
 from geometry.tetrahedra import GMSH
 

@@ -7,10 +7,10 @@ import pytest
 from blades import given, on_tip
 from refused import refused
 
+from geometry.base import MeshError
 from geometry.blade import Interface
 from geometry.interface import on_facets, places_of, require_patches, tip_of
 from geometry.mesh import build_mesh
-from geometry.project import MeshError
 from geometry.tip import cartesian
 
 POINTS = {"basis": {"kind": "paper"}}
@@ -80,20 +80,17 @@ def interface(**keys):
     return Interface.model_validate(keys)
 
 
-@pytest.mark.parametrize(("along", "side"), [("camber-line", 0), ("pressure-side", -1)])
-def test_points_by_rule_are_in_the_middles_of_equal_chord_lengths(
-    coarse_blade, facets, tip, along, side
-):
+def test_points_by_rule_are_in_the_middles_of_equal_chord_lengths(coarse_blade, facets, tip):
     """Against the sections' closed form, on the tip cylinder.
 
     The outline is of straight pieces, and the developed tip's chord is not quite the section's:
     measured 9 um across the chord and 1.5e-4 along it.
     """
-    places = places_of(interface(nodes=8, along=along), tip)
+    places = places_of(interface(nodes=8), tip)
     _, _, found = on_facets(facets[0], facets[1], tip, places)
     nearby = np.linspace(-5e-4, 5e-4, 41)
     for point, xi in zip(found, (np.arange(8) + 0.5) / 8, strict=True):
-        line = np.array([on_tip(coarse_blade.sections, xi + d, side) for d in nearby])
+        line = np.array([on_tip(coarse_blade.sections, xi + d, 0) for d in nearby])
         gap = np.linalg.norm(line - point, axis=1)
         assert gap.min() < 2e-5
         assert abs(nearby[gap.argmin()]) < 2.5e-4

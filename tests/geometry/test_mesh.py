@@ -12,9 +12,9 @@ from blades import EDGES, jacobians, nodes_of, on_tip, volume
 from refused import refused
 
 import geometry.mesh
+from geometry.base import RPM, WriteError
 from geometry.mesh import MeshError, MeshSummary, build_mesh
 from geometry.profile import profile_at
-from geometry.project import WriteError
 
 
 class Built(NamedTuple):
@@ -143,11 +143,11 @@ def test_size_of_elements_is_refused_before_meshing(
 
 
 def test_speed_in_rpm_is_refused_and_the_fastest_tips_are_not(coarse_blade, tmp_path):
-    rpm = coarse_blade.model_copy(update={"max_speed_rad_s": 6207.0})
+    rpm = coarse_blade.model_copy(update={"max_speed_rpm": RPM * 6207.0})
     error = refused(MeshError, build_mesh, rpm, tmp_path / "b.msh")
-    assert (error.key, error.value) == ("max_speed_rad_s", 6207)
+    assert (error.key, error.value) == ("max_speed_rpm", RPM * 6207.0)
     assert not list(tmp_path.iterdir())
-    fast = coarse_blade.model_copy(update={"max_speed_rad_s": 600 / 0.5624})
+    fast = coarse_blade.model_copy(update={"max_speed_rpm": RPM * 600 / 0.5624})
     line = np.array([on_tip(coarse_blade.sections, xi, 0) for xi in (0, 0.5, 1)])
     geometry.mesh._check_speed(line, fast)
 

@@ -9,9 +9,9 @@ from blades import camber_line, facets_of, given, nodes_of
 from scipy.interpolate import CubicSpline
 
 from fem.assemble import assemble
+from geometry.base import ROOT
 from geometry.blade import Blade
 from geometry.mesh import build_mesh
-from geometry.project import ROOT
 from rom.modes import ShiftInvert
 
 BLADES = ROOT / "workflow/blades"
@@ -124,7 +124,7 @@ def test_leading_edge_is_upstream_and_ahead_in_rotation(built, rotor):
 @pytest.mark.parametrize("rotor", ROTORS[:1], indirect=True, ids=["rotor37"])
 def test_engine_order_4_crosses_f1_at_the_speed_of_the_papers_blade(built, blade):
     """0.3112 of f1(0) on a fine mesh; the paper's blade: 0.310."""
-    fom = assemble(blade, "rotor37", built[1], np.linspace(0, blade.max_speed_rad_s, 3))
+    fom = assemble(blade, "rotor37", built[1], np.linspace(0, blade.top_speed, 3))
     f1 = np.array([ShiftInvert(K, fom.M).modes(1).omega[0] for K in fom.K])
     assert f1[0] == pytest.approx(2 * np.pi * 856.5, rel=5e-3)  # at 1.2 mm; measured +0.25 %
     # f1^2 is smooth in Omega^2: a parabola through three speeds meets (4 Omega)^2

@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 from refused import refused
 
-from geometry.project import Provenance, ProvenanceError, code_hash, file_hash, fingerprint
+from geometry.base import Provenance, ProvenanceError, code_hash, file_hash, fingerprint
 
 CODE = '''"""A module."""
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from refused import refused
 
-from geometry.project import AROUND, ROOT, ProvenanceError, intact, seal
+from geometry.base import AROUND, ROOT, ProvenanceError, intact, seal
 
 BYTES = bytes(np.random.default_rng(3).integers(256, size=300, dtype=np.uint8))
 

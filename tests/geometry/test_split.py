@@ -10,9 +10,9 @@ from bricks import ENDS, Bricks
 from meshio.gmsh.common import _meshio_to_gmsh_order
 from refused import refused
 
+from geometry.base import MeshError, MeshWarning
 from geometry.generate import volume
-from geometry.mesh_file import read_mesh_file
-from geometry.project import MeshError, MeshWarning
+from geometry.readers import read_mesh_file
 from geometry.shape import CELL, jacobian_ratios, session
 from geometry.split import KINDS, Block, split, triangles_of
 from geometry.tetrahedra import GMSH, exterior

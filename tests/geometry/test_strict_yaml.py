@@ -5,7 +5,7 @@ import time
 import pytest
 from refused import refused
 
-from geometry.project import MOST_CHARACTERS, MOST_VALUES, SettingsError, parse
+from geometry.base import MOST_CHARACTERS, MOST_VALUES, SettingsError, parse
 
 BOMB = "a: &a [x,x,x,x,x,x,x,x,x]\n" + "".join(
     f"{name}: &{name} [{','.join([f'*{below}'] * 9)}]\n"

@@ -6,11 +6,11 @@ import pytest
 from blades import camber_line, first_frequency, given, height, nodes_of, on_tip
 from refused import refused
 
+from geometry.base import MeshWarning
 from geometry.blade import SectionTable
 from geometry.mesh import MeshError, build_mesh
 from geometry.profile import profile_at
-from geometry.project import MeshWarning
-from geometry.table import read_sections
+from geometry.section_table import read_sections
 
 CUT = 0.01  # of the chord
 FRACTIONS = np.linspace(0, 1, 5)  # of the span

@@ -3,8 +3,8 @@
 import numpy as np
 from refused import refused
 
-from geometry.mesh_faces import outline_of
-from geometry.project import MeshError
+from geometry.base import MeshError
+from geometry.root_and_tip import outline_of
 from geometry.split import Block, split
 from geometry.tetrahedra import exterior, neighbours, outlines
 

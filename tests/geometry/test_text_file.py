@@ -5,7 +5,7 @@ import os
 import pytest
 from refused import refused
 
-from geometry.project import SettingsError, csv_rows, number, read_text
+from geometry.base import SettingsError, csv_rows, number, read_text
 
 
 @pytest.mark.parametrize(

@@ -5,8 +5,8 @@ import pytest
 from blades import height
 from refused import refused
 
+from geometry.base import MeshError
 from geometry.profile import profile_at
-from geometry.project import MeshError
 from geometry.tip import DevelopedTip, cartesian
 
 R = 0.5624

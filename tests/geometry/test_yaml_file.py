@@ -4,7 +4,7 @@ import pytest
 from pydantic import Field, model_validator
 from refused import refused
 
-from geometry.project import MOST_BASES, Settings, SettingsError, names, read_mapping
+from geometry.base import MOST_BASES, Settings, SettingsError, names, read_mapping
 
 
 @pytest.fixture
@@ -19,9 +19,7 @@ def read(tmp_path):
     return written
 
 
-BELOW = (
-    "rounds: 20\nliner: {law: {kind: plastic, E: 1, K: 0.45}, thickness_m: 5.0e-3}\nlist: [1, 2]"
-)
+BELOW = "rounds: 20\nliner: {law: {kind: plastic, E: 1, K: 0.45}, thickness_mm: 5}\nlist: [1, 2]"
 
 
 LAW = {"kind": "plastic", "E": 1, "K": 0.45}
@@ -39,7 +37,7 @@ LAW = {"kind": "plastic", "E": 1, "K": 0.45}
 )
 def test_the_keys_of_a_file_replace_those_of_its_base(read, above, rounds, law, items):
     found = read(below=BELOW, above=f"base: below\n{above}")
-    expected = {"rounds": rounds, "liner": {"law": law, "thickness_m": 5e-3}, "list": items}
+    expected = {"rounds": rounds, "liner": {"law": law, "thickness_mm": 5}, "list": items}
     assert found == {key: value for key, value in expected.items() if value is not None}
 
 

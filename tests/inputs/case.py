@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
-from geometry.project import UserError
+from geometry.base import UserError
 
 LONGEST = 500  # characters of a line of a message
 TIME = 10  # s of computing for one input

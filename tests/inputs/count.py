@@ -9,7 +9,7 @@ sys.path[:0] = [str(TESTS / name) for name in ("inputs", "geometry", "simulate")
 
 from tester import count  # noqa: E402
 
-from geometry.project import write_json  # noqa: E402
+from geometry.base import write_json  # noqa: E402
 
 INPUTS = 3200
 

@@ -18,10 +18,10 @@ from changes import cell, contents, cut, line, other_line
 from hypothesis import strategies as st
 from yaml_cases import WORKFLOW, Cases
 
+from geometry.base import MeshWarning
 from geometry.blade import Blade
 from geometry.mesh import build_mesh
 from geometry.profile import profile_at
-from geometry.project import MeshWarning
 from geometry.split import KINDS
 
 SAME = 1e-6  # relative, of volumes of one mesh: files hold some nine digits

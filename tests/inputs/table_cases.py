@@ -14,9 +14,9 @@ from scenes import SCENE
 from yaml_cases import WORKFLOW, Cases
 from yaml_oracle import differ, leaves
 
+from geometry.base import about, check_settings
 from geometry.blade import Blade
-from geometry.project import about, check_settings
-from geometry.table import read_sections
+from geometry.section_table import read_sections
 from simulate.scene import Scene
 from simulate.scene.design import Design
 

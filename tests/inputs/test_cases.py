@@ -18,12 +18,12 @@ from refused import refused
 from scipy.sparse.linalg import eigsh
 
 from fem.assemble import assemble
-from fem.given import read_matrices
+from fem.elsewhere import read_matrices
+from geometry.base import MeshError, MeshWarning, check_settings
 from geometry.blade import Blade
-from geometry.given import GivenMatrices
+from geometry.elsewhere import MatricesElsewhere
 from geometry.mesh import build_mesh
-from geometry.mesh_file import read_mesh_file
-from geometry.project import MeshError, MeshWarning, check_settings
+from geometry.readers import read_mesh_file
 from geometry.shape import session
 
 HERE = Path(__file__).parent
@@ -217,7 +217,9 @@ def test_matrices_of_calculix_have_that_physics(name, mesh, tmp_path):
     ends = {end: {"group": end.upper()} for end in ("root", "tip")}
     files = {"M": "rest.mas", "K": {0.0: "rest.sti"}}
     given = {"full_matrices": files | {"mesh_file": {"file": "a.inp", "unit": "mm"} | ends}}
-    blade = check_settings(GivenMatrices, given | {"patches": 4, "max_speed_rad_s": 600}, "blade")
+    blade = check_settings(
+        MatricesElsewhere, given | {"patches": 4, "max_speed_rad_s": 600}, "blade"
+    )
     found = read_matrices(blade, "given", tmp_path)
     f1 = np.sqrt(eigsh(found.K[0], 1, M=found.M, sigma=0)[0][0]) / (2 * np.pi)
     printed = re.search(r"^ +1 +\S+ +\S+ +(\S+)", (tmp_path / "printed.dat").read_text(), re.M)[1]

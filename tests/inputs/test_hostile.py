@@ -21,9 +21,7 @@ from matplotlib.mathtext import MathTextParser
 from own_law import LAW
 
 from fem.solid import read_solid
-from geometry.blade import Blade
-from geometry.mesh import build_mesh
-from geometry.project import (
+from geometry.base import (
     ROOT,
     ProvenanceError,
     SettingsError,
@@ -31,6 +29,8 @@ from geometry.project import (
     check_settings,
     seal,
 )
+from geometry.blade import Blade
+from geometry.mesh import build_mesh
 from geometry.shape import session
 from simulate import Runs, Scene, sweep
 from simulate.contact import kernel_file
@@ -51,8 +51,8 @@ damping_ratio: 0.005
 clearance: {leading_edge_over_span: 1.5e-4, trailing_edge_over_span: 4.3e-4}
 casing: {ramp_rounds: 0.1, harmonics: [{order: 2, amplitude_gaps: 2.0}]}
 liner:
-  {law: {kind: "foam:Foam", E: 2.0e+9, sigma_Y: 1.0e+6}, thickness_m: 5.0e-3,
-   strips: 8, footprint_m: 5.0e-3, rods_per_round: 512}
+  {law: {kind: "foam:Foam", E: 2.0e+9, sigma_Y: 1.0e+6}, thickness_mm: 5,
+   strips: 8, footprint_mm: 5, rods_per_round: 512}
 record: {samples_per_round: 64, spectrum_rounds: 1, end: true, wear: true}
 """
 MINE = ("foam", "helper", "evil", "between", "parts", "space", "wave")  # modules of the tests

@@ -9,7 +9,7 @@ from case import Case, judge
 from tester import count
 from yaml_oracle import differs
 
-from geometry.project import UserError
+from geometry.base import UserError
 
 
 @pytest.mark.nightly

@@ -87,7 +87,7 @@ SLIPS = {
         ("young_modulus_GPa", 1e9),  # in Pa
         ("density_kg_m3", 1e-3),  # in g/cm3
         ("density_kg_m3", 1e-12),  # in t/mm3
-        ("max_speed_rad_s", 60 / 6.283),  # in rpm
+        ("max_speed_rpm", 60 / 6.283),  # rad/s taken for rpm
         ("thickness_mm", 10),
         ("poisson_ratio", 10),
         ("patches", 10),
@@ -101,8 +101,8 @@ SLIPS = {
         ("rounds", 1e6),
         ("damping_ratio", 1e3),
         ("E", -1),
-        ("thickness_m", 1e6),
-        ("footprint_m", -1),
+        ("thickness_mm", 1e6),
+        ("footprint_mm", -1),
         ("strips", 100),
         ("rods_per_round", 1e5),
         ("steps_per_round", 1.001),
@@ -156,7 +156,7 @@ def of_slip(draw: st.DrawFn, seed: Seed) -> Case:
     """A number in another unit, of another sign or ten times what was meant."""
     key, factor = draw(st.sampled_from(SLIPS[seed.kind]))
     found = [n for n in scalars(seed.text) if is_number(n) and _key(seed.text, n) == key]
-    of_mesh = key == "max_speed_rad_s" and "sections:" not in seed.text  # with the tip's radius
+    of_mesh = key == "max_speed_rpm" and "sections:" not in seed.text  # with the tip's radius
     if not found or of_mesh:
         return seed.case("unchanged", seed.text, "accept")
     node = draw(st.sampled_from(found))

@@ -3,7 +3,7 @@ import pytest
 from scipy.sparse import csr_matrix
 
 from fem.matrices import Matrices
-from geometry.project import Provenance
+from geometry.base import Provenance
 from rom.reconstruct import Basis
 
 
@@ -12,7 +12,7 @@ def check_matrices(coarse_blade, coarse_mesh) -> Matrices:
     """Assemble the full coarse blade at 17 speeds, more than a check needs."""
     from fem.assemble import assemble
 
-    speeds = np.linspace(0, coarse_blade.max_speed_rad_s, 17)
+    speeds = np.linspace(0, coarse_blade.top_speed, 17)
     return assemble(coarse_blade, "coarse", coarse_mesh.mesh, speeds)
 
 

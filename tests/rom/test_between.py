@@ -8,7 +8,7 @@ from refused import refused
 
 import rom.between
 from fem.assemble import assemble, over_speeds
-from geometry.project import Caution
+from geometry.base import RPM, Caution
 from rom.between import error_between
 from rom.check import check
 from rom.full_model import solve
@@ -52,7 +52,7 @@ def test_estimate_of_a_polynomial_is_round_off_and_of_three_speeds_not_known():
 
 @pytest.fixture(scope="module")
 def fast(coarse_blade):
-    return coarse_blade.model_copy(update={"max_speed_rad_s": FAST})
+    return coarse_blade.model_copy(update={"max_speed_rpm": RPM * FAST})
 
 
 @pytest.fixture(scope="module")

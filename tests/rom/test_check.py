@@ -7,9 +7,9 @@ import pytest
 from refused import refused
 
 from fem.assemble import assemble, over_speeds
+from geometry.base import ProvenanceError
 from geometry.blade import EnrichedBasis, PaperBasis
 from geometry.hats import hats
-from geometry.project import ProvenanceError
 from geometry.tip import EDGES
 from rom.check import RomCheck, check, further_speeds
 from rom.full_model import BENT, FullModel, solve

@@ -20,7 +20,7 @@ from rom.modes import ModesError, ShiftInvert
 def full(coarse_blade, coarse_mesh):
     """As the workflow solves it, the factors shared with the equilibria."""
     cholesky = Cholesky()
-    speeds = np.linspace(0, coarse_blade.max_speed_rad_s, 17)
+    speeds = np.linspace(0, coarse_blade.top_speed, 17)
     return solve(*over_speeds(coarse_blade, "coarse", coarse_mesh.mesh, speeds, cholesky), cholesky)
 
 

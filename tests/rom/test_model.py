@@ -9,7 +9,7 @@ import xarray as xr
 from refused import refused
 from scipy.linalg import eigvalsh
 
-from geometry.project import Provenance, ProvenanceError, code_hash, seal
+from geometry.base import Provenance, ProvenanceError, code_hash, seal
 from geometry.stored import FORMAT, write
 from rom.model import CODE, DIRECTIONS, Rom, RomError, require_letters
 from simulate.errors.model_errors import ModelErrors

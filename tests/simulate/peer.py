@@ -71,7 +71,7 @@ class Liner:
         """Distortion (near,), m, at ``n`` steps from the start, where harmonics may travel."""
         d, time = np.zeros(len(self.rods_near)), n / self.steps * self.round_time
         for wave in self.harmonics:
-            angle = wave.order * (self.rods[self.rods_near] - wave.speed_rad_s * time)
+            angle = wave.order * (self.rods[self.rods_near] - wave.speed_rpm * np.pi / 30 * time)
             d += (
                 self.scale
                 * wave.amplitude_gaps

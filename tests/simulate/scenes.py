@@ -2,8 +2,9 @@
 
 import yaml
 
+from geometry.base import check_settings
+from geometry.base.units import OTHER
 from geometry.hats import middles
-from geometry.project import check_settings
 from simulate.contact.ledger import Ledger
 from simulate.scene import Scene
 
@@ -17,8 +18,8 @@ damping_ratio: 0.005
 clearance: {leading_edge_over_span: 1.5e-4, trailing_edge_over_span: 4.3e-4}
 casing: {ramp_rounds: 0.1, harmonics: [{order: 2, amplitude_gaps: 2.0}]}
 liner:
-  {law: {kind: plastic, E: 1.0, K: 0.45, sigma_Y: 1.0e-8, unit_Pa: 2.0e+9}, thickness_m: 5.0e-3,
-   strips: 8, footprint_m: 5.0e-3, rods_per_round: 512}
+  {law: {kind: plastic, E: 1.0, K: 0.45, sigma_Y: 1.0e-8, unit_MPa: 2000}, thickness_mm: 5,
+   strips: 8, footprint_mm: 5, rods_per_round: 512}
 record:
   {samples_per_round: 64, spectrum_rounds: 1, contact_force: true,
    history: {chord: [0.0625, 0.9375]}}
@@ -39,7 +40,7 @@ TWO_LOBES = {
     ],
 }
 UNIT = 1.64e9  # Pa
-RUBBING = TWO_LOBES | {"liner__law__unit_Pa": UNIT}
+RUBBING = TWO_LOBES | {"liner__law__unit_MPa": UNIT / 1e6}
 EXPLICIT_TO_EXACT = (  # in the lines above
     "{scheme: central-difference, fraction_of_limit: 0.8}",
     "{scheme: piecewise-exact, steps_per_round: 640}",
@@ -56,9 +57,9 @@ def over_strips(m=8):
     return [float(xi) for xi in middles(m)]
 
 
-def softened(case: Scene, unit_Pa: float) -> Scene:
+def softened(case: Scene, unit_MPa: float) -> Scene:
     """The scene with a softer liner than settings allow: too soft to move the blade."""
-    law = case.liner.law.model_copy(update={"unit_Pa": unit_Pa})
+    law = case.liner.law.model_copy(update={"unit_MPa": unit_MPa})
     return case.model_copy(update={"liner": case.liner.model_copy(update={"law": law})})
 
 
@@ -78,5 +79,6 @@ def scene(**changes) -> Scene:
         if value is None:
             del place[key]
         else:
+            place.pop(OTHER.get(key), None)  # the same in another unit
             place[key] = value
     return check_settings(Scene, values, "scene.yaml")

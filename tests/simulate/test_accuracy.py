@@ -11,8 +11,8 @@ import pytest
 from refused import refused
 from scenes import scene
 
+from geometry.base import ROOT, ProvenanceError, check_settings
 from geometry.blade import Blade
-from geometry.project import ROOT, ProvenanceError, check_settings
 from rom.check import RomCheck
 from rom.coarser import coarser
 from rom.model import Rom, RomError
@@ -82,7 +82,7 @@ def pair_of(name, folder):
         blade = check_settings(Blade, values, name)
         if not mesh.is_file():
             build_mesh(blade, mesh, BLADES / blade.file if blade.file else None)
-        speeds = basis_speeds(blade.basis, blade.max_speed_rad_s)
+        speeds = basis_speeds(blade.basis, blade.top_speed)
         models.append(reduce(assemble(blade, "coarse", mesh, speeds), blade.basis, "r")[0])
     return Pair(*models)
 
@@ -363,7 +363,7 @@ def test_a_coarse_basis_or_mesh_is_refused_with_its_error(asking, reference, tmp
     assert refused(ProvenanceError, pilot, case, rom, check, path).file == str(path)
 
 
-HARD = {"liner__law__E": 7.0, "liner__law__K": 4.55, "liner__law__unit_Pa": 8e9}
+HARD = {"liner__law__E": 7.0, "liner__law__K": 4.55, "liner__law__unit_MPa": 8000}
 
 
 @pytest.mark.parametrize(
@@ -417,7 +417,7 @@ def test_the_strips_chosen_are_no_fewer_than_the_patches(patches, accuracy, chan
 def test_the_first_step_is_shorter_for_a_higher_accuracy_and_a_stiff_liner(reference):
     """On a stiff liner the stiffness of contact in a step goes with the accuracy."""
     rom, soft = reference.own, scene(**TO_CHOOSE, accuracy=0.1, liner__law__E=0.1)
-    hard = soft.but(liner__law__E=10.0, liner__law__unit_Pa=8e9)
+    hard = soft.but(liner__law__E=10.0, liner__law__unit_MPa=8000)
     speeds = soft.speeds.omega(rom.f1)
     least = _first(soft, rom, speeds).steps_per_round
     assert least * soft.liner.footprint_m >= 2 * np.pi * rom.camber[:, 0].max()

@@ -13,11 +13,11 @@ from test_accuracy import TO_CHOOSE
 from test_interface_force import ROUND_OFF, compliance
 from test_start import go_on, made
 
-from fem.interface import interface_of
+from fem.interface_operator import interface_of
 from fem.solid import read_solid
+from geometry.base import UserError
 from geometry.hats import middles
 from geometry.interface import tip_of
-from geometry.project import UserError
 from rom.model import Rom, RomError
 from rom.reduce import reduce
 from simulate.contact.compiled import for_types_of
@@ -34,7 +34,7 @@ from simulate.marching.friction import solve_sliding
 from simulate.marching.modal import Step
 from simulate.marching.setup import sliding_modes, strip_stiffness, with_lean
 from simulate.scene import LEADING
-from simulate.sweeps.plausible import doubts
+from simulate.sweeps.unusual import doubts
 
 SUBTRIANGLES = [(0, 3, 5), (3, 1, 4), (5, 4, 2), (3, 4, 5)]  # of six nodes, VTK's order
 LENGTH, WIDTH, THICKNESS = 4e-3, 2.5e-3, 5e-3  # m, of the footprint, the strip, the liner
@@ -117,7 +117,7 @@ def test_levers_have_the_moment_of_a_footprint_wherever_the_blade_is(rods):
 def rub(steps=1024, **more):
     """A scene whose tip rubs the arc that it covers."""
     exact = {"integrator": of_steps(steps), "liner__rods_per_round": 1021}
-    return scene(**RUBBING | exact | {"rounds": 4, "liner__footprint_m": None} | more)
+    return scene(**RUBBING | exact | {"rounds": 4, "liner__footprint_mm": None} | more)
 
 
 @pytest.mark.parametrize("slides", [False, True])
@@ -157,7 +157,7 @@ def test_force_and_moment_are_those_of_the_rods_where_they_leave_the_strips(deca
 
 def test_two_rows_that_are_equal_are_one(edges_rom):
     """A lean of 0 in all modes: the numbers of one row, for a flat tip and for a rounded one."""
-    for more in ({}, {"contact__profile": {"tilt": 0.01, "edge_drop_m": 1e-6}}):
+    for more in ({}, {"contact__profile": {"tilt": 0.01, "edge_drop_um": 1}}):
         case = rub(**more)
         two = prepare(case, edges_rom, edges_rom.omega1 * 0.34)
         two = replace(two, Phi_lean=0 * two.Phi_lean)
@@ -172,9 +172,9 @@ def test_two_rows_that_are_equal_are_one(edges_rom):
 
 SETS = {
     "flat": {},
-    "rounded": {"contact__profile": {"tilt": 0.0, "edge_drop_m": 2e-6}},
+    "rounded": {"contact__profile": {"tilt": 0.0, "edge_drop_um": 2}},
     "tangential": {
-        "contact__profile": {"tilt": 0.01, "edge_drop_m": 2e-6},
+        "contact__profile": {"tilt": 0.01, "edge_drop_um": 2},
         "contact__tangential": True,
     },
     "friction": {"contact__friction": 0.15},
@@ -261,12 +261,12 @@ def test_the_footprint_is_the_arc_that_the_tip_covers(solid, edges_rom, coarse_r
     (a, b, c), (d, e, f) = np.moveaxis(arc, -1, 0), np.moveaxis(z, -1, 0)
     area = abs((b - a) * (f - d) - (c - a) * (e - d)).sum() / 2
     assert places.footprint @ places.width == pytest.approx(area, rel=0.01)
-    given = scene(liner__footprint_m=4e-3)
+    given = scene(liner__footprint_mm=4)
     assert (strip_places(coarse_rom, given.liner, given.casing).footprint == 4e-3).all()
-    assert "not used" in doubts(given, edges_rom)["liner.footprint_m"]
+    assert "not used" in doubts(given, edges_rom)["liner.footprint_mm"]
     without = replace(coarse_rom, sides=np.empty((2, 0)))
-    with pytest.raises(RomError, match="footprint_m"):
-        strip_places(without, scene(liner__footprint_m=None).liner, given.casing)
+    with pytest.raises(RomError, match="footprint_mm"):
+        strip_places(without, scene(liner__footprint_mm=None).liner, given.casing)
 
 
 def test_gaps_at_rest_differ_between_the_edges_by_their_growth(edges_rom):
@@ -284,7 +284,7 @@ def test_gaps_at_rest_differ_between_the_edges_by_their_growth(edges_rom):
 
 
 def test_a_run_across_the_thickness_goes_on_to_the_last_bit(edges_rom, tmp_path):
-    case = made(liner__footprint_m=None, liner__rods_per_round=1021)
+    case = made(liner__footprint_mm=None, liner__rods_per_round=1021)
     whole, first, then = go_on(case, edges_rom, tmp_path / "first.nc")
     parts = [part["history"].values for part in (first, then)]
     assert np.ptp(whole["history"].values) > 0

@@ -8,8 +8,8 @@ from refused import refused
 from runs import marched, rad_s, set_up
 from scenes import scene
 
+from geometry.base import SettingsError
 from geometry.hats import middles
-from geometry.project import SettingsError
 from simulate.contact.gaps import gaps_at
 from simulate.marching import SceneError, check_scene
 
@@ -58,7 +58,7 @@ def test_a_run_beside_a_line_is_that_with_its_gaps_and_its_slope(cone):
     growth = 0.2 * 5e-5 + 2e-5
     gap = GAP - growth * (rad_s(cone, 0.3) / cone.Omega_m) ** 2
     now = {"leading_edge_m": gap, "trailing_edge_m": gap}
-    changes = {"casing__harmonics": [{"order": 2, "amplitude_m": 1.3e-4}]}
+    changes = {"casing__harmonics": [{"order": 2, "amplitude_um": 130}]}
     line = of_line(beside(cone, GAP), **changes)
     cases = line, scene(clearance=now, casing__slope=SLOPE, **changes)
     (one, other), (a, b) = ([f(case, cone) for case in cases] for f in (marched, set_up))

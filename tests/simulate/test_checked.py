@@ -14,10 +14,10 @@ from simulate.errors import checked as module
 from simulate.errors.checked import checked
 from simulate.errors.resolution import LEAST_LOST, LOST, PERIOD, risk
 from simulate.errors.run import Run
-from simulate.sweeps.closing_in import sweep
 from simulate.sweeps.dataset import checks
 from simulate.sweeps.peak import Peak
 from simulate.sweeps.peak_results import case_of
+from simulate.sweeps.sweep import sweep
 
 EXACT = of_steps(1280)
 
@@ -145,7 +145,7 @@ def test_a_sweep_whose_step_is_too_long_is_mended(coarse_rom):
 
     Some are right, others are mended by an eighth of the step.
     """
-    stiff = {"kind": "plastic", "E": 100.0, "K": 45.0, "sigma_Y": 1e-8, "unit_Pa": 2e9}
+    stiff = {"kind": "plastic", "E": 100.0, "K": 45.0, "sigma_Y": 1e-8, "unit_MPa": 2000}
     case = scene(integrator=EXACT, speeds=SPEEDS, rounds=3, liner__law=stiff)
     case = case.but(liner__rods_per_round=2039)
     plain, runs = (sweep(case.but(check=share), coarse_rom) for share in (0, 0.1))

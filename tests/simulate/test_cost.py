@@ -7,9 +7,9 @@ from refused import refused
 from runs import swept
 from scenes import of_steps, scene
 
-from geometry.project import WARNING
-from simulate.sweeps.closing_in import sweep
+from geometry.base import WARNING
 from simulate.sweeps.cost import cost
+from simulate.sweeps.sweep import sweep
 
 
 class Stopped(Exception):  # noqa: N818

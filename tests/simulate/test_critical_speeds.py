@@ -7,7 +7,7 @@ from scenes import scene
 from scipy.signal import find_peaks
 
 from geometry.tip import JUDGED
-from simulate.errors.signals import lines, maxima, spectrum
+from simulate.signals import lines, maxima, spectrum
 from simulate.sweeps.crossings import crossing
 from simulate.sweeps.peak import reported, rise
 

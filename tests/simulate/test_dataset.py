@@ -9,7 +9,7 @@ from refused import refused
 from runs import marched, swept
 from scenes import blade_balance, scene
 
-from geometry.project import ProvenanceError, code_hash
+from geometry.base import ProvenanceError, code_hash
 from simulate.contact.places import strip_places
 from simulate.sweeps.dataset import (
     FORMAT,
@@ -23,7 +23,7 @@ from simulate.sweeps.dataset import (
 )
 from simulate.sweeps.over_speeds import as_sweep, at_speeds
 
-ROUND_TIP = {"contact__profile": {"edge_drop_m": 2e-5}, "contact__tangential": True}
+ROUND_TIP = {"contact__profile": {"edge_drop_um": 20}, "contact__tangential": True}
 
 
 @pytest.fixture(scope="module")
@@ -147,7 +147,7 @@ def test_a_sweep_holds_what_the_scene_records_and_no_more(coarse_rom, plain):
 
 def test_a_sweep_holds_runs_that_end_early_and_runs_that_do_not(coarse_rom):
     """A soft, thin coating is worn through at the crossing with eo(4), but not far below it."""
-    thin = {"liner__thickness_m": 8e-6, "liner__law__K": 0.01}
+    thin = {"liner__thickness_mm": 0.008, "liner__law__K": 0.01}
     speeds = {"over_f1": [0.1, 0.31]}
     result = swept(scene(rounds=3, **thin, speeds=speeds, record__end=True), coarse_rom)
     assert result.status.values.tolist() == ["ok", "liner-exhausted"]

@@ -8,15 +8,14 @@ import pytest
 from refused import refused
 from scenes import EXACT, of_steps, scene
 
-from geometry.project import SettingsError
+from geometry.base import SettingsError
 from rom import model
 from simulate.__main__ import main
 from simulate.errors.accuracy import Choice
-from simulate.errors.signals import leading_gap, leading_wear, lobe_count
 from simulate.marching import STATUSES, SceneError
 from simulate.scene.design import Design
+from simulate.signals import leading_gap, leading_wear, lobe_count
 from simulate.sweeps import design_runs
-from simulate.sweeps.closing_in import sweep
 from simulate.sweeps.dataset import load as load_sweep
 from simulate.sweeps.design_runs import (
     Engine,
@@ -29,9 +28,10 @@ from simulate.sweeps.design_runs import (
     save_part,
 )
 from simulate.sweeps.peak import along_order, peak_of, reported
+from simulate.sweeps.sweep import sweep
 
 SPEEDS = {"first": 0.3, "last": 0.36, "count": 4}
-BASE = {"integrator": EXACT, "speeds": {"over_f1": SPEEDS}, "liner__law__unit_Pa": 2e8}
+BASE = {"integrator": EXACT, "speeds": {"over_f1": SPEEDS}, "liner__law__unit_MPa": 200}
 TABLE = """liner.law.K,casing.harmonics[0].amplitude_gaps,speeds.over_f1,peaks
 0.3,,,
 0.45,2.5,"[0.31, 0.32, 0.35]",
@@ -83,7 +83,7 @@ def test_a_row_is_the_scene_with_its_values(tmp_path):
 def test_null_takes_a_key_away_and_another_kind_replaces_the_law(tmp_path):
     table = "liner.law.E,liner.law.unit_Pa,liner.law.kind,record.history\n3,1e9,elastic,null\n"
     (row,) = design(tmp_path, table).scenes
-    assert row.liner.law.model_dump() == {"kind": "elastic", "E": 3.0, "unit_Pa": 1e9}
+    assert row.liner.law.model_dump() == {"kind": "elastic", "E": 3.0, "unit_MPa": 1000}
     assert row.record.history is None
 
 
@@ -300,7 +300,7 @@ def test_checks_take_a_tenth_of_the_steps_of_rows_run_together(coarse_rom, tmp_p
 
 def test_an_accuracy_of_the_scene_gives_each_run_its_error(coarse_rom, tmp_path):
     """As in a sweep with the same choice; the pilot's own runs, of the base, are not taken."""
-    values = {"liner__law__unit_Pa": 2e8, "rounds": 1, "accuracy": 0.01, "integrator": None}
+    values = {"liner__law__unit_MPa": 200, "rounds": 1, "accuracy": 0.01, "integrator": None}
     base = scene(**values, liner__rods_per_round=None, liner__strips=None)
     chosen = {"steps_per_round": 2048, "rods_per_round": 509, "strips": 8}
     errors = {"basis_error": 0.0, "mesh_error": None, "expected": 0.0}

@@ -13,9 +13,9 @@ from rom.coarser import coarser
 from rom.reduce import reduce
 from simulate.errors.beyond_linear import BEYOND, SecondOrder
 from simulate.errors.model_errors import ModelError
-from simulate.errors.signals import spectrum
 from simulate.marching.trend import trend
 from simulate.scene import Casing
+from simulate.signals import spectrum
 from simulate.sweeps.dataset import course
 from simulate.sweeps.peak_results import results
 

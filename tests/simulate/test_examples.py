@@ -11,8 +11,8 @@ import simulate
 from simulate import Scene
 
 MODULES = {
-    *("simulate.contact.compiled", "simulate.errors.observables", "simulate.errors.signals"),
-    *("simulate.scene.design", "simulate.scene.tables", "simulate.sweeps.plain"),
+    *("simulate.contact.compiled", "simulate.errors.observables", "simulate.signals"),
+    *("simulate.scene.design", "simulate.scene.tables", "simulate.sweeps.result_types"),
     *("simulate.marching.states", "simulate.marching.trend", "simulate.sweeps.crossings"),
     *simulate.FACE.values(),
 }

@@ -11,7 +11,7 @@ from scenes import blade_balance, of_steps, scene
 from systems import elastic_rod, march_exact, strips
 from test_interface_force import assert_solved, from_another_guess, interface, plain_newton
 
-from geometry.project import SettingsError
+from geometry.base import SettingsError
 from simulate.contact.kernel_file import key
 from simulate.marching import SceneError, march, strip_stiffness
 from simulate.marching.friction import LEAST, PLACES, growth_rate, monotony, mu_crit

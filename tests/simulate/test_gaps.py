@@ -8,15 +8,15 @@ from refused import refused
 from runs import rad_s
 from scenes import EXACT, scene
 
-from geometry.project import SettingsError
+from geometry.base import SettingsError
 from simulate.contact.gaps import gaps_at
 from simulate.marching import SceneError, check_scene, least_gap, prepare
 from simulate.scene import LEADING, TRAILING
-from simulate.sweeps.closing_in import sweep
 from simulate.sweeps.dataset import load, save
+from simulate.sweeps.sweep import sweep
 
-GAPS = {"leading_edge_m": 1.0e-4, "trailing_edge_m": 1.5e-4}
-HARMONICS = [{"order": 2, "amplitude_m": 8e-5}]
+GAPS = {"leading_edge_um": 100, "trailing_edge_um": 150}
+HARMONICS = [{"order": 2, "amplitude_um": 80}]
 
 
 @pytest.fixture
@@ -48,8 +48,8 @@ def test_run_is_that_with_the_gaps_of_its_speed(grown):
     """Independent: the same two gaps, computed by hand, given as running ones."""
     growth = 5e-5 * (rad_s(grown, 0.3) / grown.Omega_m) ** 2
     now = {
-        "leading_edge_m": GAPS["leading_edge_m"] - growth * (1 - 0.2 * LEADING),
-        "trailing_edge_m": GAPS["trailing_edge_m"] - growth * (1 - 0.2 * TRAILING),
+        "leading_edge_um": GAPS["leading_edge_um"] - 1e6 * growth * (1 - 0.2 * LEADING),
+        "trailing_edge_um": GAPS["trailing_edge_um"] - 1e6 * growth * (1 - 0.2 * TRAILING),
     }
     rest, running = (sweep(case, grown) for case in (at_rest(), at_rest(clearance=now)))
     assert float(rest.wear.max()) > 1e-6
@@ -79,7 +79,7 @@ def test_thermal_growth_takes_from_the_gap_too(grown, tmp_path):
     assert taken == pytest.approx([5e-6, 1e-5, 2.5e-5], rel=1e-9)
 
 
-SMALL = {"leading_edge_m": 4e-6, "trailing_edge_m": 4e-5, "at": "rest"}
+SMALL = {"leading_edge_um": 4, "trailing_edge_um": 40, "at": "rest"}
 
 
 def test_gap_that_the_tip_outgrows_is_refused_with_both_numbers_and_the_speed(grown):
@@ -95,15 +95,15 @@ def test_gap_that_the_tip_outgrows_is_refused_with_both_numbers_and_the_speed(gr
         f"{growth:.4g} m at {Omega:.6g} rad/s (0.35 f1(0)): contact before the casing distorts; "
         f"allowed from that, or lower speeds"
     )
-    fits = at_rest(clearance=SMALL | {"leading_edge_m": 1.01 * growth})
+    fits = at_rest(clearance=SMALL | {"leading_edge_um": 1.01e6 * growth})
     check_scene(fits.but(speeds={"over_f1": [0.2, 0.35]}), grown)
     assert refused(SceneError, prepare, case, grown, 600.0).key == "clearance"
     too_fast = at_rest(speeds={"rad_s": [651.0]})  # all are: there is no gap to tell
-    assert refused(SceneError, check_scene, too_fast, grown).key == "speeds.rad_s"
+    assert refused(SceneError, check_scene, too_fast, grown).key == "speeds.rpm"
 
 
 def test_speed_outside_the_thermal_table_and_model_without_growth_are_refused(grown):
-    table = {"speed_rad_s": [0, 100], "growth_m": [0, 1e-6]}
+    table = {"speed_rad_s": [0, 100], "growth_um": [0, 1]}
     case = at_rest(clearance={**GAPS, "at": "rest", "thermal_growth": table})
     error = refused(SceneError, check_scene, case, grown)
     assert (error.key, error.allowed) == ("clearance.thermal_growth", (0, 100))
@@ -123,14 +123,14 @@ def test_least_gap_is_that_of_the_worst_speed(grown):
     ("changes", "key"),
     [
         (
-            {"clearance": {**GAPS, "thermal_growth": {"speed_rad_s": [0, 1], "growth_m": [0, 0]}}},
+            {"clearance": {**GAPS, "thermal_growth": {"speed_rad_s": [0, 1], "growth_um": [0, 0]}}},
             "clearance.thermal_growth",
         ),
         ({"speeds": {"over_f1": [0.2, 0.3], "in_turn": True}}, "speeds.in_turn"),
         ({"start": {"scene": "b", "speed_over_f1": 0.2}}, "start.speed_over_f1"),
         ({"clearance": {**GAPS, "at": "cold"}}, "clearance.at"),
         (
-            {"clearance": {**GAPS, "at": "rest", "thermal_growth": {"growth_m": [0, 0]}}},
+            {"clearance": {**GAPS, "at": "rest", "thermal_growth": {"growth_um": [0, 0]}}},
             "clearance.thermal_growth",
         ),
         (
@@ -138,10 +138,10 @@ def test_least_gap_is_that_of_the_worst_speed(grown):
                 "clearance": {
                     **GAPS,
                     "at": "rest",
-                    "thermal_growth": {"speed_rad_s": [1, 0], "growth_m": [0, 0]},
+                    "thermal_growth": {"speed_rad_s": [1, 0], "growth_um": [0, 0]},
                 }
             },
-            "clearance.thermal_growth.speed_rad_s",
+            "clearance.thermal_growth.speed_rpm",
         ),
     ],
 )

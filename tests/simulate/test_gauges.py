@@ -8,7 +8,7 @@ from refused import refused
 from runs import swept
 from scenes import EXACT, scene
 
-from geometry.project import SettingsError
+from geometry.base import SettingsError
 from rom.coarser import coarser
 from rom.polynomial import evaluate
 from simulate.errors.neighbour import Neighbour
@@ -98,8 +98,8 @@ def test_a_file_without_its_gauges_is_refused(kept, tmp_path):
 def test_revolutions_that_are_not_computed_have_no_readings(rom):
     ended = swept(
         case(
-            liner__thickness_m=5e-7,
-            casing__harmonics=[{"order": 2, "amplitude_m": 4e-5}],
+            liner__thickness_mm=0.0005,
+            casing__harmonics=[{"order": 2, "amplitude_um": 40}],
             speeds={"over_f1": [0.3]},
         ),
         rom,

@@ -142,7 +142,7 @@ def limit(law):
     return law.sigma_Y
 
 
-@pytest.mark.filterwarnings("ignore::simulate.sweeps.plausible.SceneWarning")  # a modulus is none
+@pytest.mark.filterwarnings("ignore::simulate.sweeps.unusual.SceneWarning")  # a modulus is none
 @pytest.mark.parametrize(
     ("stress", "told"),
     [

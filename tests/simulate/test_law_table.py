@@ -8,14 +8,14 @@ from refused import refused
 from scenes import scene
 from systems import march_exact, strips
 
-from geometry.project import SettingsError, check_settings
+from geometry.base import SettingsError, check_settings
 from simulate.contact.law_check import fault
 from simulate.contact.rod_law import rod_law
 from simulate.scene import Scene
 from simulate.scene.laws.plastic import Plastic
 from simulate.scene.laws.table import Tabulated
-from simulate.sweeps.closing_in import sweep
-from simulate.sweeps.plausible import SceneWarning
+from simulate.sweeps.sweep import sweep
+from simulate.sweeps.unusual import SceneWarning
 
 E, K, SIGMA_Y = 3.0, 2.0, 0.3
 ENDS = 0.1, 0.7  # strains: where `plastic` yields, and any further one
@@ -85,7 +85,7 @@ def test_curve_that_yields_at_once_has_no_elastic_part():
         ({"strain": [0, 0.2, 0.1], "stress_Pa": [0, 0.1, 0.2]}, "strain at point 3 (strain 0.1): "),
         ({"strain": [0, 0.1, 0.2], "stress_Pa": [0, 0.2, 0.1]}, "stress at point 3 (strain 0.2): "),
         ({"strain": [0.1, 0.2], "stress_Pa": [0, 0.1]}, "begins at strain 0.1, stress 0 Pa"),
-        ({"strain": [0, 0.2], "stress_Pa": [0, 0.1, 0.2]}, "2 strain and 3 stress_Pa: give"),
+        ({"strain": [0, 0.2], "stress_Pa": [0, 0.1, 0.2]}, "2 strain and 3 stress_MPa: give"),
         ({"strain": [0, 0.1], "stress_Pa": [0, 0.0]}, "stress is 0 throughout"),
         ({"strain": [0, 0.5, 8], "stress_Pa": [0, 1.0, 4.5]}, "the column is strain_percent"),
         ({"strain": [0, 0.1, 0.2], "stress_Pa": [0, 0.1, 0.9]}, "curve: rises by 8 Pa from "),
@@ -111,7 +111,7 @@ def test_file_is_read_in_its_units(tmp_path):
     path = tmp_path / "liner.csv"
     path.write_text("strain_percent, stress_MPa\n0, 0\n1, 2\n5, 3\n\n")
     curve = table(str(path), unit_Pa=1e9).curve
-    assert curve.strain == (0.0, 0.01, 0.05) and curve.stress_Pa == (0.0, 2e6, 3e6)
+    assert curve.strain == (0.0, 0.01, 0.05) and curve.stress_Pa == [0.0, 2e6, 3e6]
 
 
 def test_the_march_with_it_is_that_of_the_plastic_law():

@@ -10,26 +10,26 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from geometry.project import ROOT, check_settings
+from geometry.base import ROOT, check_settings
 from simulate.scene.laws import LAWS
 from simulate.scene.laws.none import NoContact
 from simulate.scene.laws.rigid import Rigid
 
-PLASTIC = {"kind": "plastic", "E": 3.0, "K": 2.0, "sigma_Y": 0.3, "unit_Pa": 1.0}
+PLASTIC = {"kind": "plastic", "E": 3.0, "K": 2.0, "sigma_Y": 0.3, "unit_MPa": 1e-06}
 TABLE = {  # elastic to 0.3 Pa, then with three slopes
     "kind": "table",
     "E": 3.0,
-    "unit_Pa": 1.0,
-    "curve": {"strain": [0, 0.1, 0.3, 0.5, 0.9], "stress_Pa": [0, 0.3, 0.3, 0.7, 1.2]},
+    "unit_MPa": 1e-06,
+    "curve": {"strain": [0, 0.1, 0.3, 0.5, 0.9], "stress_MPa": [0, 3e-07, 3e-07, 7e-07, 1.2e-06]},
 }
 SAMPLES = [  # at least one of each law
     PLASTIC,
-    PLASTIC | {"K": 0, "unit_Pa": 1e9},  # perfect plasticity
+    PLASTIC | {"K": 0, "unit_MPa": 1000},  # perfect plasticity
     PLASTIC | {"sigma_Y": 0},  # wears from the first touch
     PLASTIC | {"K": 0, "sigma_Y": 0},  # bears nothing that it does not wear
     PLASTIC | {"K": 1e9},
     TABLE,
-    {"kind": "elastic", "E": 3.0, "unit_Pa": 1e6},
+    {"kind": "elastic", "E": 3.0, "unit_MPa": 1},
     {"kind": "rigid"},
     {"kind": "none"},
 ]
@@ -183,7 +183,7 @@ def test_the_stress_of_a_yielding_rod_is_exactly_its_elastic_limit(sigma_Y):
 @pytest.mark.parametrize("eps", [0.01, 0.7])
 def test_the_plastic_law_tends_to_the_elastic_one_for_large_K(K, eps):
     """The two differ by the share E / (E + K) of the stress, and so does the wear."""
-    elastic, hard = made({"kind": "elastic", "E": 3.0, "unit_Pa": 1.0}), plastic(K=K, sigma_Y=0)
+    elastic, hard = made({"kind": "elastic", "E": 3.0, "unit_MPa": 1e-06}), plastic(K=K, sigma_Y=0)
     limit, no_wear, slope = elastic.stress(elastic.parameters, eps, 0.0)
     share = 3 / (3 + K)
     expected = [limit * (1 - share), share * eps, slope * (1 - share)]
@@ -196,7 +196,7 @@ def test_the_plastic_law_tends_to_the_elastic_one_for_large_K(K, eps):
     [(PLASTIC, (24e9, 16e9, 2.4e9)), ({"kind": "elastic", "E": 3.0}, (24e9,))],
 )
 def test_moduli_are_in_the_unit_of_the_scene(sample, parameters):
-    law = made(sample | {"unit_Pa": 8e9})
+    law = made(sample | {"unit_MPa": 8000})
     assert law.parameters == parameters and law.modulus == 24e9
 
 
@@ -231,9 +231,9 @@ class Perfect(Elastic):
 '''
 USE = """
 from scenes import scene
-from geometry.project import SettingsError
+from geometry.base import SettingsError
 
-law = scene(liner__law={"kind": "perfect", "E": 2.0, "unit_Pa": 1e6}).liner.law
+law = scene(liner__law={"kind": "perfect", "E": 2.0, "unit_MPa": 1}).liner.law
 print(law.stress(law.parameters, 0.5, 0.1))
 try:
     scene(liner__law={"kind": "perfekt"})

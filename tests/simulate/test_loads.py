@@ -8,7 +8,7 @@ import pytest
 from made_sweeps import made_rom
 from scenes import of_steps, scene
 
-from simulate.errors.loads import (
+from simulate.loads import (
     mean_force,
     mean_opening,
     tangential_moment,

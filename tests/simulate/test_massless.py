@@ -159,8 +159,8 @@ def rubbing(steps, **law):
     )
 
 
-PLASTIC = {"kind": "plastic", "E": 1.0, "K": 0.45, "sigma_Y": 1e-8, "unit_Pa": 2e9}
-LAWS = [PLASTIC, {"kind": "elastic", "E": 1.0, "unit_Pa": 2e9}, {"kind": "rigid"}]
+PLASTIC = {"kind": "plastic", "E": 1.0, "K": 0.45, "sigma_Y": 1e-8, "unit_MPa": 2000}
+LAWS = [PLASTIC, {"kind": "elastic", "E": 1.0, "unit_MPa": 2000}, {"kind": "rigid"}]
 
 
 def apart(one, other):

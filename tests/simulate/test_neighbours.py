@@ -9,7 +9,7 @@ from refused import refused
 from runs import made, set_up, swept
 from scenes import SCHEMES, of_steps, scene
 
-from geometry.project import SettingsError
+from geometry.base import SettingsError
 from simulate.contact.ledger import Ledger
 from simulate.errors.neighbours import EIGHTH, HALF, QUARTER, TWIN, from_shorter, judged, shifted
 from simulate.errors.observables import differences, distance, observables
@@ -18,8 +18,8 @@ from simulate.errors.run import Case, Run
 from simulate.marching import SENSITIVE_FROM, Facts, Outcome, largest_state, prepare
 from simulate.marching.kernel import ESCAPED, RUNNING, WORN_THROUGH
 from simulate.marching.trend import Rounds
-from simulate.sweeps.closing_in import sweep
 from simulate.sweeps.over_speeds import as_sweep, at_speeds
+from simulate.sweeps.sweep import sweep
 
 RECORD = {
     "samples_per_round": 64,
@@ -43,7 +43,7 @@ FACTS = {  # of marches that end with a status
 HARD = {
     "rounds": 5,
     "damping_ratio": 0.0,
-    "liner__law__unit_Pa": 1e13,
+    "liner__law__unit_MPa": 10000000,
     "liner__rods_per_round": 2039,  # with fewer, no step returns what contact should
     "speeds": {"over_f1": [0.33]},
 }

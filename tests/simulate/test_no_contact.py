@@ -9,7 +9,7 @@ from scenes import EXACT, SCHEMES, scene
 
 from simulate.marching import march
 from simulate.marching.start import UNDER
-from simulate.sweeps.closing_in import sweep
+from simulate.sweeps.sweep import sweep
 
 APART = {"casing__harmonics": [{"order": 2, "amplitude_gaps": 0.99}]}
 NO_STRENGTH = {"liner__law__K": 0.0, "liner__law__sigma_Y": 0.0}
@@ -26,7 +26,7 @@ def record_end(**changes):
         (APART, ["clearance: the smallest gap is 21", "largest inward distortion 20.79 um"]),
         ({"casing__scale": 0.0}, ["casing.scale: 0: nothing brings the liner to the tip"]),
         (
-            {"casing__harmonics": [{"order": 0, "amplitude_m": 0.0}]},
+            {"casing__harmonics": [{"order": 0, "amplitude_um": 0}]},
             ["casing.the distortion is nowhere inward"],
         ),
         (
@@ -40,7 +40,7 @@ def record_end(**changes):
         (NO_STRENGTH, ["liner.law: sigma_Y and K are 0", "without any force"]),
     ],
 )
-@pytest.mark.filterwarnings("ignore::simulate.sweeps.plausible.SceneWarning")
+@pytest.mark.filterwarnings("ignore::simulate.sweeps.unusual.SceneWarning")
 def test_a_run_that_never_touches_says_why(coarse_rom, changes, words):
     outcome = marched(scene(integrator=EXACT, **changes), coarse_rom)
     assert outcome.status == "no-contact" and outcome.contact_share == 0
@@ -69,7 +69,7 @@ def test_a_sweep_has_the_reason_and_the_result(coarse_rom):
     assert runs.spectrum.values.max() == 0 and not np.isnan(runs.spectrum.values).any()
 
 
-@pytest.mark.filterwarnings("ignore::simulate.sweeps.plausible.SceneWarning")
+@pytest.mark.filterwarnings("ignore::simulate.sweeps.unusual.SceneWarning")
 def test_a_run_that_goes_on_touches_when_the_casing_comes(coarse_rom):
     """Of a ramp of four rounds the first leaves nothing moved; the blade still at rest rubs."""
     case = record_end(rounds=1, casing__ramp_rounds=4)
@@ -83,7 +83,7 @@ def test_a_moving_blade_that_touches_no_more_is_ok(coarse_rom):
     """A run goes on in a casing out of reach, and rings down from what the first one left."""
     left = marched(record_end(), coarse_rom).final
     away = record_end(
-        casing__harmonics=[{"order": 0, "amplitude_m": 0.0}],
+        casing__harmonics=[{"order": 0, "amplitude_um": 0}],
         clearance={"leading_edge_over_span": 0.01, "trailing_edge_over_span": 0.01},
     )
     under = left.under * [[name != "stored"] for name in UNDER]

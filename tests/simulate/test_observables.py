@@ -5,7 +5,7 @@ from scenes import RUBBING, of_steps, scene
 
 from simulate.errors.observables import NUMBERS, numbers
 from simulate.errors.run import Case
-from simulate.errors.signals import (
+from simulate.signals import (
     amplitude,
     blurred,
     lobe_count,

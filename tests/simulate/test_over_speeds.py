@@ -3,9 +3,9 @@
 import numpy as np
 from scenes import scene
 
-from simulate.sweeps.closing_in import close_in, sweep
 from simulate.sweeps.over_speeds import as_sweep, at_speeds
 from simulate.sweeps.peak import along_order, peak_of
+from simulate.sweeps.sweep import close_in, sweep
 
 ORDERS = {"record__spectrum_rounds": 1, "peaks": {"orders": [4], "within_over_f1": 2e-3}}
 

@@ -9,10 +9,10 @@ from scenes import of_steps, scene
 
 from simulate.errors.bistable import change, jump, largest
 from simulate.errors.companion import Fineness
-from simulate.errors.loads import torque
 from simulate.errors.model_errors import ModelError
 from simulate.errors.neighbour import CHAOTIC, ONE_MOTION, TWO_MOTIONS
 from simulate.errors.neighbours import raised
+from simulate.loads import torque
 from simulate.marching import prepare
 from simulate.sweeps.over_speeds import as_sweep, at_speeds
 from simulate.sweeps.peak import reported
@@ -33,7 +33,7 @@ FOLD = {
     "damping_ratio": 0.002,
     "speeds": {"over_f1": [0.3335]},
     "integrator": of_steps(1024),
-    "liner__law": {"kind": "elastic", "E": 1.0, "unit_Pa": 1e9},
+    "liner__law": {"kind": "elastic", "E": 1.0, "unit_MPa": 1000},
     "liner__rods_per_round": 509,
     "casing": {"ramp_rounds": 1, "harmonics": [{"order": 4, "amplitude_gaps": 1.2}]},
     "record": {"samples_per_round": 64, "spectrum_rounds": 4},
@@ -42,7 +42,7 @@ STEEP = {  # its amplitude changes by a sixth with a thousandth of the frequency
     "rounds": 30,
     "speeds": {"over_f1": [0.364]},
     "damping_ratio": 0.005,
-    "liner__law": {"kind": "elastic", "E": 1.0, "unit_Pa": 3e9},
+    "liner__law": {"kind": "elastic", "E": 1.0, "unit_MPa": 3000},
     "casing": {"ramp_rounds": 1, "harmonics": [{"order": 4, "amplitude_gaps": 1.5}]},
 }
 WORN = {
@@ -86,7 +86,7 @@ FAR = FOLD | {"speeds": {"over_f1": [0.325]}}
 HARD = {
     "rounds": 5,
     "damping_ratio": 0.0,
-    "liner__law__unit_Pa": 1e13,
+    "liner__law__unit_MPa": 10000000,
     "liner__rods_per_round": 2039,
     "speeds": {"over_f1": [0.35]},  # departs by 3 % at least, whatever the last digits of the model
     "twin": True,  # heard before the energy that these steps lose
@@ -230,7 +230,7 @@ def test_without_a_result_or_in_turn_nothing_is_tried(coarse_rom, worn):
 
 def test_a_sweep_without_contact_and_force_has_no_critical_speed(coarse_rom):
     """Without a liner, or with one that no tip reaches, nothing moves the blade."""
-    away = {"clearance": {"leading_edge_m": 1e-3, "trailing_edge_m": 1e-3}}
+    away = {"clearance": {"leading_edge_um": 1000, "trailing_edge_um": 1000}}
     for still in (away | {"casing__harmonics": []}, {"liner__law": {"kind": "none"}}):
         runs = swept(scene(**WORN | still), coarse_rom)
         assert asked(runs, coarse_rom) == results(runs, coarse_rom, CALM) == []

@@ -16,8 +16,7 @@ CASES = {
     "near resonance, more strips than patches": CALM | RESONANT,
     "slow, one strip": CALM | {"strips": 1, "over_f1": 0.12, "rounds": 2},
     "2.5 rods a step": CALM | {"E": 10.0, "over_f1": 0.34, "rounds": 3, "rods": 2560},
-    "3.9 rods a step, of 5.7": CALM
-    | {"rounds": 3, "rods": 1001, "steps": 256, "footprint_m": 2e-2},
+    "3.9 rods a step, of 5.7": CALM | {"rounds": 3, "rods": 1001, "steps": 256, "footprint_mm": 20},
     "3.9 rods a step, of 4": CALM | {"rounds": 3, "rods": 1001, "steps": 256},
     "friction": CALM | {"friction": 0.1, "rounds": 4},
     "friction, stiff": CALM | {"friction": 0.05, "E": 10.0, "rounds": 3},

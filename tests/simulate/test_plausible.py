@@ -6,13 +6,13 @@ import pytest
 import yaml
 from scenes import scene
 
-from geometry.project import ROOT
+from geometry.base import ROOT
 from simulate import march
 from simulate.scene import Scene
 from simulate.scene.design import Design
-from simulate.sweeps.closing_in import sweep
 from simulate.sweeps.design_runs import Engine
-from simulate.sweeps.plausible import SceneWarning, doubts
+from simulate.sweeps.sweep import sweep
+from simulate.sweeps.unusual import SceneWarning, doubts
 
 EXACT = {"integrator": {"scheme": "piecewise-exact", "steps_per_round": 640}}
 
@@ -27,7 +27,7 @@ EXACT = {"integrator": {"scheme": "piecewise-exact", "steps_per_round": 640}}
         ),
         ({"speeds": {"over_f1": [0.002]}}, "speeds", ["0.002 f1(0)", "no engine order up to 200"]),
         (
-            {"clearance__trailing_edge_over_span": None, "clearance__trailing_edge_m": 0.02},
+            {"clearance__trailing_edge_over_span": None, "clearance__trailing_edge_um": 20000},
             "clearance",
             ["21.4 mm, 15 % of the span", "is it in mm, or in %?"],
         ),
@@ -37,7 +37,11 @@ EXACT = {"integrator": {"scheme": "piecewise-exact", "steps_per_round": 640}}
             ["amplitude_gaps: 150", "150 % of the gap would be 1.5"],
         ),
         ({"casing__ramp_rounds": 3}, "casing.ramp_rounds", ["3: longer than the 2 revolutions"]),
-        ({"liner__footprint_m": 0.2}, "liner.footprint_m", ["longer than the chord", "mm or cm?"]),
+        (
+            {"liner__footprint_mm": 200},
+            "liner.footprint_mm",
+            ["longer than the chord", "mm or cm?"],
+        ),
         (
             {"contact": {"profile": {"tilt": 0.5}}},
             "contact.profile.tilt",

@@ -9,7 +9,7 @@ from runs import set_up
 from scenes import of_steps, scene
 from systems import Parameters, march_exact, one_rod, strips
 
-from geometry.project import SettingsError
+from geometry.base import SettingsError
 from simulate.contact.ramp import tabled
 from simulate.marching import SceneError
 from simulate.scene.tables import RampTable

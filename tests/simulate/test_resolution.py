@@ -16,7 +16,7 @@ from simulate.errors.observables import error
 from simulate.errors.resolution import WINDOW, check_resolution, shortest_window
 from simulate.errors.run import Run
 from simulate.marching import SceneError
-from simulate.sweeps.closing_in import sweep
+from simulate.sweeps.sweep import sweep
 
 SLOW = 0.02  # over f1(0): many periods of the first mode in a round
 
@@ -81,7 +81,7 @@ def test_a_rough_casing_is_passed_in_its_wide_windows(coarse_rom):
     [
         (bumps(12) | {"halving": True}, 0.3, "the closest part of the casing is passed in"),
         ({}, SLOW, "the first mode has"),
-        ({"liner__footprint_m": 2.5e-3, **bumps(1)}, 0.3, "the tip passes 2.21 of"),
+        ({"liner__footprint_mm": 2.5, **bumps(1)}, 0.3, "the tip passes 2.21 of"),
         # with half a step a period of the first mode still has ten
         (bumps(1) | {"halving": True}, 0.15, "the first mode has 9"),
     ],
@@ -113,7 +113,7 @@ def test_what_is_refused_would_be_wrong(coarse_rom):
     [
         (64, bumps(12, 0.9), SLOW),  # out of reach
         (640, {"halving": True}, SLOW),  # which replaces the look at the first mode,
-        (640, {"halving": True, "liner__footprint_m": 2e-3}, 0.3),  # and that at the footprint
+        (640, {"halving": True, "liner__footprint_mm": 2}, 0.3),  # and that at the footprint
         (64, bumps(1) | {"halving": True}, 0.17),  # with ten steps in its period
     ],
 )

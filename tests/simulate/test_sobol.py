@@ -8,7 +8,7 @@ import xarray as xr
 from refused import refused
 from scenes import EXACT, scene
 
-from geometry.project import SettingsError
+from geometry.base import SettingsError
 from simulate.scene.design import Design
 from simulate.scene.sobol import Sobol, SobolError, indices
 from simulate.sweeps.design_runs import Engine, load, march_block, row_table, save

@@ -11,16 +11,16 @@ from scenes import SCHEMES, scene
 
 from simulate.marching import FinalState, SceneError, march
 from simulate.sweeps import dataset
-from simulate.sweeps.closing_in import sweep
 from simulate.sweeps.dataset import final_state_of, of_final_state
+from simulate.sweeps.sweep import sweep
 
 LAWS = {
-    "plastic": {"kind": "plastic", "E": 1.0, "K": 0.45, "sigma_Y": 1e-8, "unit_Pa": 2e9},
-    "elastic": {"kind": "elastic", "E": 1.0, "unit_Pa": 2e9},
+    "plastic": {"kind": "plastic", "E": 1.0, "K": 0.45, "sigma_Y": 1e-8, "unit_MPa": 2000},
+    "elastic": {"kind": "elastic", "E": 1.0, "unit_MPa": 2000},
     "rigid": {"kind": "rigid"},
     "none": {"kind": "none"},
 }
-TANGENTIAL = {"tangential": True, "profile": {"tilt": 0.01, "edge_drop_m": 1e-5}}
+TANGENTIAL = {"tangential": True, "profile": {"tilt": 0.01, "edge_drop_um": 10}}
 WHOLE, BEFORE = 6, 2  # rounds
 FAILED = {"rounds": 1}  # a run before that is said to have diverged
 

@@ -54,8 +54,8 @@ def test_recording_states_changes_nothing_else(recorded, coarse_rom):
 def test_states_of_a_run_that_ends_early_are_missing(coarse_rom):
     ended = states_of(
         coarse_rom,
-        liner__thickness_m=5e-7,
-        casing__harmonics=[{"order": 2, "amplitude_m": 4e-5}],
+        liner__thickness_mm=0.0005,
+        casing__harmonics=[{"order": 2, "amplitude_um": 40}],
         speeds={"over_f1": OVER_F1[:1]},
         record=RECORD | {"states_rounds": 1},
     )

@@ -6,7 +6,7 @@ from refused import refused
 from scenes import scene
 from systems import FLAT, Parameters, lively, march, march_exact, strips
 
-from geometry.project import SettingsError
+from geometry.base import SettingsError
 from simulate.contact.rod_law import rod_law
 from simulate.contact.strips import Tip, largest_over_window
 from simulate.contact.travelling import waves
@@ -97,7 +97,7 @@ def test_an_orbit_with_the_blade_is_order_0_to_it():
     assert standing.min() > 0
     most = 0.8 * np.sin(phase) * np.pi * length / nu * E / (E + K)
     assert abs(turning - standing).max() * THICKNESS < 1.1 * most
-    unbalance = Harmonic(order=0, amplitude_m=4e-5, phase_deg=60)
+    unbalance = Harmonic(order=0, amplitude_um=40, phase_deg=60)
     assert unbalance.inward(np.zeros(3), gap=1.0) == pytest.approx(2e-5)
 
 
@@ -173,7 +173,7 @@ def test_a_rigid_casing_is_met_where_it_is_at_the_end_of_a_step():
 @pytest.mark.parametrize(
     ("order", "more", "key", "value"),
     [
-        (0, {}, "casing.harmonics.0.speed_rad_s", 3.0),
+        (0, {}, "casing.harmonics.0.speed_rpm", pytest.approx(90 / np.pi)),
         (1, {"speeds": {"over_f1": [0.3, 0.31], "in_turn": True}}, "speeds.in_turn", None),
     ],
 )

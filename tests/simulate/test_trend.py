@@ -11,18 +11,18 @@ import pytest
 from scenes import EXACT, RUBBING, of_steps, scene
 from scipy.signal import lfilter
 
-from geometry.project import ROOT
+from geometry.base import ROOT
 from simulate.errors.neighbour import Neighbour
 from simulate.errors.neighbours import ITSELF, TWIN, judged
 from simulate.errors.run import Case
 from simulate.marching import WITH_RESULT, march, prepare
 from simulate.marching.trend import FEWEST, Rounds, looks, time_constant, trend
 from simulate.scene import DYING_OUT, GROWING, STEADY, TOO_SHORT, TRENDS, Scene
-from simulate.sweeps.closing_in import sweep
 from simulate.sweeps.crossings import crossing
 from simulate.sweeps.dataset import SPEED, course, load, of_run, save
 from simulate.sweeps.peak import Peak
 from simulate.sweeps.peak_results import case_of, to_march
+from simulate.sweeps.sweep import sweep
 
 J = np.arange(400.0)
 NO_WEAR = np.zeros(400)
@@ -217,7 +217,7 @@ def test_what_is_recorded_over_time_is_that_of_as_many_rounds(coarse_rom, tmp_pa
 
 def test_a_run_that_shorter_steps_mend_has_the_times_of_its_sweep(coarse_rom, tmp_path):
     """All but one run of a sweep until steady are of its own steps; all end at 0."""
-    stiff = {"kind": "plastic", "E": 100.0, "K": 45.0, "sigma_Y": 1e-8, "unit_Pa": 2e9}
+    stiff = {"kind": "plastic", "E": 100.0, "K": 45.0, "sigma_Y": 1e-8, "unit_MPa": 2000}
     record = RUB["record"] | {"motion": 3, "states_rounds": 3, "history": {"chord": [0.5]}}
     speeds = {"over_f1": {"first": 0.26, "last": 0.34, "count": 12}}
     of = {"record": record, "speeds": speeds, "liner__law": stiff, "damping_ratio": 0.02}
@@ -271,7 +271,7 @@ def drawn(dice, rom):
         "rounds": max(ceil(LONGER * tau), rounds + rounds // 4 + 1),
         "integrator": of_steps(1024),
         "liner__rods_per_round": 1019,
-        "liner__law__unit_Pa": 8e9 * 10 ** dice.uniform(-1, 0.3),
+        "liner__law__unit_MPa": 8000 * 10 ** dice.uniform(-1, 0.3),
         "liner__law__E": float(dice.choice([0.1, 0.25, 0.5, 1.0, 2.0, 3.0, 5.0, 7.0, 10.0])),
         "liner__law__K": float(dice.choice([0.1, 0.45, 1.0, 4.55, 10.0])),
         "casing__ramp_rounds": ramp,

@@ -5,7 +5,7 @@ import sys
 import pytest
 from scenes import scene
 
-from geometry.project.provenance import ROOT
+from geometry.base.provenance import ROOT
 from simulate.scene import Scene
 from simulate.sweeps.over_speeds import at_speeds, check_sweep
 

@@ -16,9 +16,9 @@ from calculix import Cells
 from cases import Case, Row
 from numpy.typing import NDArray
 
+from geometry.base import ROOT, read_json, write_json
 from geometry.blade import Blade, Material
 from geometry.mesh import build_mesh
-from geometry.project import ROOT, read_json, write_json
 
 PINS = Path(__file__).with_name("calculix.json")
 TOLERANCE = 4e-4  # of curved cells, which CalculiX integrates at four points
@@ -68,7 +68,7 @@ def beside(
 def rows() -> Iterator[Row]:
     """Ten frequencies at rest and at the highest speed."""
     blade = coarse()
-    speeds = 0.0, blade.max_speed_rad_s
+    speeds = 0.0, blade.top_speed
     with TemporaryDirectory() as folder:
         mesh = Path(folder) / "blade.msh"
         build_mesh(blade, mesh)

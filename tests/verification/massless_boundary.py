@@ -31,11 +31,11 @@ from massless_runs import (
     rub,
 )
 
+from geometry.base import read_json
 from geometry.hats import middles
-from geometry.project import read_json
 from geometry.tip import EDGES
 from rom.model import Rom
-from simulate.errors.signals import spectrum
+from simulate.signals import spectrum
 from workflow.markdown import table
 
 FINE, SHORT = 32768, 2048  # steps per revolution: converged, and the product's for 1 %

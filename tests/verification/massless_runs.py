@@ -22,8 +22,8 @@ from numpy.typing import NDArray
 from scenes import TWO_LOBES, UNIT
 
 from fem.matrices import Matrices
+from geometry.base import ROOT, check_settings
 from geometry.blade import Blade
-from geometry.project import ROOT, check_settings
 from rom.model import Rom
 from simulate.marching import central_difference, prepare, strip_stiffness
 from simulate.marching.setup import Setup
@@ -67,7 +67,7 @@ def assembled(name: str, size: float) -> tuple[Blade, Matrices, Facets]:
     with TemporaryDirectory() as folder:
         mesh = Path(folder) / "blade.msh"
         build_mesh(blade, mesh, BLADES / blade.file if blade.file else None)
-        speeds = basis_speeds(blade.basis, blade.max_speed_rad_s)
+        speeds = basis_speeds(blade.basis, blade.top_speed)
         return blade, assemble(blade, name, mesh, speeds), tip_facets(mesh)
 
 

@@ -44,7 +44,7 @@ from massless_runs import (  # noqa: E402
 )
 from matplotlib.figure import Figure  # noqa: E402
 
-from geometry.project import write_json  # noqa: E402
+from geometry.base import write_json  # noqa: E402
 from workflow.figures import style  # noqa: E402
 from workflow.markdown import rounded  # noqa: E402
 

@@ -21,21 +21,21 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import identity
 
-from fem.interface import at_places, interface_of
+from fem.interface_operator import at_places, interface_of
 from fem.matrices import Matrices
 from fem.solid import Solid, read_solid
+from geometry.base import csv_text, write_whole
 from geometry.blade import Blade
 from geometry.hats import middles
 from geometry.interface import on_facets, tip_of
-from geometry.project import csv_text, write_whole
 from geometry.tip import cartesian, on_line
 from rom.model import Rom
 from rom.reduce import reduce
 from simulate.contact.places import by_share, volume_of
 from simulate.errors.observables import error
-from simulate.errors.signals import on_rods
 from simulate.marching import march, prepare
 from simulate.scene import LEADING, Scene
+from simulate.signals import on_rods
 from tests.simulate.peer import piecewise_exact
 from workflow.markdown import percent
 
@@ -99,7 +99,7 @@ def compared(
     models = {model: of_patches(blade, fom, solid, *model) for model in MODELS}
     for name, scene in scenes.items():
         record = {"samples_per_round": scene.record.samples_per_round}
-        case = scene.but(record=record, peaks=None, twin=False, liner__footprint_m=None)
+        case = scene.but(record=record, peaks=None, twin=False, liner__footprint_mm=None)
         for over_f1 in OVER_F1[name]:
             true = by_nodes(case, of_nodes, over_f1)
             for (patches, across), rom in models.items():

@@ -25,7 +25,7 @@ import two_masses  # noqa: E402
 import wright  # noqa: E402
 from cases import Case, Row  # noqa: E402
 
-from geometry.project import read_json, write_json, write_whole  # noqa: E402
+from geometry.base import read_json, write_json, write_whole  # noqa: E402
 from workflow.markdown import table  # noqa: E402
 
 NUMBERS, PAGE = HERE / "numbers.json", TESTS / "VERIFICATION.md"

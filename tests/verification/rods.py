@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import block_diag, eigh
 
-from geometry.project import Provenance, check_settings
+from geometry.base import Provenance, check_settings
 from rom.model import Rom
 from simulate.scene import Scene
 
@@ -84,7 +84,7 @@ def _chain(elements: int, own: float, coupling: float) -> NDArray[np.float64]:
 def elastic(stiffness: float) -> dict:
     """Law of a liner that is a stop of ``stiffness``, N/m."""
     E = stiffness * THICKNESS / (WIDTH * FOOTPRINT)
-    return {"kind": "elastic", "E": E / 1e9, "unit_Pa": 1e9}
+    return {"kind": "elastic", "E": E / 1e9, "unit_MPa": 1000}
 
 
 def scene_of(law: dict, gap: float, **more: object) -> Scene:

@@ -11,9 +11,9 @@ from cases import Case, Row
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
+from geometry.base import ROOT
 from geometry.blade import Blade
 from geometry.mesh import build_mesh
-from geometry.project import ROOT
 
 FILE = ROOT / "workflow/blades/rotor37.yaml"
 SURFACES = Path(__file__).with_name("rotor37-surfaces.csv")

@@ -16,8 +16,8 @@ from scipy.spatial import KDTree
 from fem.assemble import assemble
 from fem.at_rest import build_mesh_at_rest
 from fem.matrices import Matrices
-from geometry.blade import RPM, Blade
-from geometry.project import ROOT
+from geometry.base import ROOT, RPM
+from geometry.blade import Blade
 from rom.modes import ShiftInvert
 
 FILE = ROOT / "workflow/blades/rotor67.yaml"

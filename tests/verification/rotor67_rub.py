@@ -11,9 +11,8 @@ from closing import closing, sides, tip_facets
 from numpy.typing import NDArray
 from rotor67 import coarse, mesh_at_rest
 
-from geometry.blade import RPM
+from geometry.base import ROOT, RPM
 from geometry.interface import tip_of
-from geometry.project import ROOT
 from rom.model import Rom
 from rom.reduce import reduce
 from simulate import Scene, march, sweep

@@ -22,7 +22,7 @@ from massless_study import (
 )
 from page import read
 
-from geometry.project import read_json
+from geometry.base import read_json
 from simulate import sweep
 
 

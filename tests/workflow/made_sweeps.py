@@ -3,7 +3,7 @@
 import numpy as np
 import xarray as xr
 
-from geometry.project import ROOT, Provenance, code_hash
+from geometry.base import ROOT, Provenance, code_hash
 from rom.model import CODE, Rom
 from simulate.scene import LEADING, History, Scene
 from simulate.sweeps.dataset import FORMAT, save

@@ -147,7 +147,7 @@ def make_project(folder: Path) -> Project:
 
 
 def _of_the_reference(blade):
-    del blade["sections"], blade["max_speed_rad_s"]
+    del blade["sections"], blade["max_speed_rpm"]
 
 
 def _coarsen(blade):

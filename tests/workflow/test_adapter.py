@@ -9,9 +9,9 @@ from typing import Annotated, Any
 import pytest
 from projects import ROOT
 
-from geometry.project import UserError, write_json
-from workflow.arguments import argument
+from geometry.base import UserError, write_json
 from workflow.config import Config
+from workflow.job_arguments import argument
 from workflow.paper.measure import Numbers
 
 
@@ -43,7 +43,7 @@ SCRIPTS = str(ROOT / "workflow/scripts")
 SCRIPT = """
 import sys, types, warnings
 from adapter import stage
-from geometry.project import MeshError, MeshWarning
+from geometry.base import MeshError, MeshWarning
 
 job = types.SimpleNamespace(log=[sys.argv[1]], rule="build_mesh", params={}, wildcards={})
 job.input, job.output = ["geometry/mesh.py", "b.step"], []
@@ -95,8 +95,8 @@ def test_bug_keeps_its_traceback_in_the_log(job):
 @pytest.mark.parametrize(
     "module",
     [
-        "geometry.project.errors",
-        "geometry.project.provenance",
+        "geometry.base.errors",
+        "geometry.base.provenance",
         "fem.prestress",
         "rom.modes",
         "rom.model",
@@ -136,7 +136,7 @@ def test_a_place_that_cannot_be_written_is_refused_before_the_job_begins(job, tm
 
 
 TELLING = """
-from geometry.project import WARNING
+from geometry.base import WARNING
 tell.report("what was meshed")
 tell("compiled")
 tell("loaded")

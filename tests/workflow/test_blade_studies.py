@@ -5,11 +5,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from geometry.base import read_mapping, write_json
 from geometry.hats import hats
-from geometry.project import read_mapping, write_json
 from rom.modes import ShiftInvert
 from workflow import readme
-from workflow.study import frequencies, mesh
+from workflow.study import frequencies, mesh_convergence
 from workflow.study.rotor37 import crossing, edge_cuts_table, prestress_table
 
 ROOT = Path(__file__).parents[2]
@@ -34,7 +34,7 @@ def levels(order):
     for size, factor in zip(SIZES, FACTORS, strict=True):
         step = (size / SIZES[OWN]) ** order
         rest, speed = LIMIT * (1 + SLOPE * step), 1.1 * LIMIT * (1 + 0.8 * SLOPE * step)
-        row = made(mesh.OWN if factor == 1 else str(factor), [rest, rest, speed])
+        row = made(mesh_convergence.OWN if factor == 1 else str(factor), [rest, rest, speed])
         nodes = int(2e4 * FACTORS[OWN] / factor**2)
         deflection = TIP * (1 - 2e-4 * step)
         row["numbers"] |= {"element_size_mm": size, "nodes": nodes, "tip_deflection_m": deflection}
@@ -51,13 +51,13 @@ def of_meshes():
 @pytest.mark.parametrize("order", [0.9, 1.4, 2.0, 3.3])
 def test_the_order_and_limit_of_a_sequence_are_recovered(order):
     values = np.array([row["numbers"]["frequencies_Hz"][0] for row in levels(order)])
-    found = mesh.common_order(SIZES[-3:], values[-3:])
+    found = mesh_convergence.common_order(SIZES[-3:], values[-3:])
     assert found == pytest.approx(order, abs=1e-3)  # of the search
-    np.testing.assert_allclose(mesh.limits(SIZES, values, order), LIMIT, rtol=1e-14)
+    np.testing.assert_allclose(mesh_convergence.limits(SIZES, values, order), LIMIT, rtol=1e-14)
 
 
 def test_errors_are_against_the_limit_and_the_band_is_that_of_the_finest(of_meshes):
-    found = mesh.numbers(of_meshes)
+    found = mesh_convergence.numbers(of_meshes)
     at_rest = found["at_rest_Hz"]
     # the order is found to 1e-3
     np.testing.assert_allclose(at_rest["error"][OWN], SLOPE, rtol=5e-3)
@@ -67,13 +67,13 @@ def test_errors_are_against_the_limit_and_the_band_is_that_of_the_finest(of_mesh
 
 
 def test_the_coarsest_size_does_not_affect_the_order(of_meshes):
-    order = mesh.numbers(of_meshes)["order"]
+    order = mesh_convergence.numbers(of_meshes)["order"]
     of_meshes[0]["numbers"]["frequencies_Hz"][0] = list(1.01 * LIMIT)
-    assert mesh.numbers(of_meshes)["order"] == order
+    assert mesh_convergence.numbers(of_meshes)["order"] == order
 
 
 def test_table_states_limits_errors_and_bands(of_meshes):
-    text = mesh.table(of_meshes)
+    text = mesh_convergence.table(of_meshes)
     assert "4.96 mm (5,000 nodes)" in text and "observed order 1.40" in text
     assert "| 1 | 250.00 | +0.05 ± 0.04 | 275.00 | +0.04 ± 0.03 |" in text
     assert "0.4000 mm, error -0.02 ± 0.02 %" in text
@@ -88,7 +88,7 @@ def test_the_sizes_of_the_meshes_are_in_the_ratios_of_which_the_limit_is():
             read_mapping(ROOT / f"workflow/blades/{blade}.yaml")["mesh"]["element_size_mm"]
             for blade in blades
         ]
-        own = sizes[[*rows].index(mesh.OWN)]
+        own = sizes[[*rows].index(mesh_convergence.OWN)]
         np.testing.assert_allclose(sizes, own * np.array(FACTORS), rtol=1e-15)
 
 
@@ -163,4 +163,4 @@ def test_cuts_are_compared_with_the_blade_s_own():
 def test_a_page_takes_a_study_where_it_has_been_run(of_meshes, tmp_path):
     write_json(of_meshes, tmp_path / "results/experiments/mesh/table.json")
     pages = readme.generated(readme.read_pages(ROOT), tmp_path)
-    assert mesh.table(of_meshes) in pages["fem/README.md"]
+    assert mesh_convergence.table(of_meshes) in pages["fem/README.md"]

@@ -6,9 +6,9 @@ import pytest
 from projects import ROOT, TABLES
 
 from simulate.errors.neighbours import GAP_CHANGE
-from simulate.errors.signals import LOBE_PROMINENCE
 from simulate.marching import SENSITIVE_FROM
 from simulate.scene.casing import COUNTS
+from simulate.signals import LOBE_PROMINENCE
 from simulate.sweeps import peak as peaks
 from workflow.figures import table
 

@@ -7,8 +7,8 @@ import pandas as pd
 import pytest
 from made_sweeps import ROOT
 
+from geometry.base import read_json
 from geometry.blade import Blade
-from geometry.project import read_json
 from workflow.paper import conclusions
 from workflow.paper.claims import CLAIMS
 from workflow.paper.conclusions import DATA, FIT

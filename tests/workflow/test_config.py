@@ -8,7 +8,7 @@ import pytest
 from projects import make_project
 from refused import refused
 
-from geometry.project import SettingsError
+from geometry.base import SettingsError
 from workflow import at_work
 from workflow.at_work import not_writable
 from workflow.config import Config, read_config

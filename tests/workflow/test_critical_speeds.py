@@ -11,8 +11,8 @@ from runs import swept
 from scenes import of_steps, scene
 from scipy.linalg import eigh
 
+from geometry.base import write_json
 from geometry.blade import MODES, ORDERS
-from geometry.project import write_json
 from simulate.errors.model_errors import ModelError
 from simulate.sweeps.crossings import critical
 from simulate.sweeps.peak_results import of_sweep, results

@@ -20,7 +20,7 @@ from fem import solid
 from fem.matrices import Matrices
 from fem.solid import read_solid
 from geometry import stored
-from geometry.project import UserError, files, read_json, require_writable, seal, write_json
+from geometry.base import UserError, files, read_json, require_writable, seal, write_json
 from geometry.stored import CSR, Stored, write
 from rom.check import RomCheck
 from rom.full_model import FullModel
@@ -31,7 +31,7 @@ from simulate.errors.model_errors import ModelErrors
 from simulate.scene.design import Design
 from simulate.sweeps import dataset, design_runs
 from simulate.sweeps.design_runs import Engine, march_block, row_table
-from workflow.figures import views
+from workflow.figures import rendering
 from workflow.jobs.figure import origins
 
 SEED = 20
@@ -61,7 +61,7 @@ def readers(project, coarse_blade) -> dict[Path, Callable[[Path], Any]]:
         return blade.free_coordinates(), blade.tip
 
     def fields_of_peak(path):
-        grid = views.read_fields(path)
+        grid = rendering.read_fields(path)
         return grid.points, grid["away from clamp and contact"]
 
     def check(path):
@@ -290,7 +290,7 @@ def test_checks_take_at_most_two_percent_of_a_run(readers, project, monkeypatch,
 
     checks = {stored: "require_symmetric", Rom: "require_possible"}
     checks |= {dataset: "_require_runs", design_runs: "_require_columns"}
-    sealing = (files, solid, views)
+    sealing = (files, solid, rendering)
     others = (stored, "tril"), *((module, "intact") for module in sealing)
     for module, name in (*checks.items(), *others):
         timed(module, name)

@@ -42,7 +42,7 @@ from fem.assemble import assemble
 from geometry.blade import Blade
 from rom.speeds import basis_speeds
 blade = Blade.load(sys.argv[1])
-speeds = basis_speeds(blade.basis, blade.max_speed_rad_s)
+speeds = basis_speeds(blade.basis, blade.top_speed)
 assemble(blade, "coarse", sys.argv[2], speeds).save(sys.argv[3])
 """
 

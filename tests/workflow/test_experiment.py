@@ -7,9 +7,9 @@ import yaml
 from projects import make_project
 from refused import refused
 
-from geometry.project import SettingsError, UserError, read_json
+from geometry.base import SettingsError, UserError, read_json
 from simulate.errors.observables import differences
-from simulate.sweeps.closing_in import sweep
+from simulate.sweeps.sweep import sweep
 from tests.simulate.scenes import scene
 from workflow.experiment import engine, table
 from workflow.experiment.numbers import peaks

@@ -15,8 +15,8 @@ from scipy.spatial import cKDTree
 from fem.fatigue import von_mises
 from fem.fields import fields
 from rom.reconstruct import Basis
-from simulate.errors.signals import leading_gap
 from simulate.scene import Scene
+from simulate.signals import leading_gap
 from simulate.sweeps.crossings import critical
 from simulate.sweeps.over_speeds import as_sweep, at_speeds
 from workflow.explore import page as pack

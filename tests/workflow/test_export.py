@@ -17,7 +17,8 @@ from scipy.linalg import eigh
 from scipy.spatial import KDTree
 
 from fem.matrices import Matrices
-from geometry.blade import RPM, Blade
+from geometry.base import RPM
+from geometry.blade import Blade
 from geometry.frame import rotation
 from rom.full_model import FullModel
 from rom.model import Rom

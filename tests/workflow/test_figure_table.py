@@ -8,7 +8,7 @@ import pytest
 from projects import TABLES
 from refused import refused
 
-from geometry.project import SettingsError
+from geometry.base import SettingsError
 from workflow.figures import table
 
 ROWS = table.read(*TABLES)

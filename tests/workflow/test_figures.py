@@ -37,10 +37,10 @@ from test_paper_signals import files as spectrogram_files  # noqa: F401
 from test_stability_studies import ENGAGED
 from tidy import faults
 
+from geometry.base import ProvenanceError
 from geometry.blade import Blade
 from geometry.hats import hat_nodes
 from geometry.profile import profile_at
-from geometry.project import ProvenanceError
 from rom.check import RomCheck
 from rom.full_model import FullModel
 from simulate.scene import Scene
@@ -61,7 +61,7 @@ from workflow.figures import (
     style,
     wear,
 )
-from workflow.figures.marks import speed_text
+from workflow.figures.annotations import speed_text
 from workflow.figures.response import Response
 from workflow.jobs.figure import origins, read
 from workflow.paper.figures import (
@@ -76,7 +76,7 @@ from workflow.paper.figures import (
     spectrograms,
 )
 from workflow.paper.measure import coating
-from workflow.study import mesh
+from workflow.study import mesh_convergence
 from workflow.study.stability import told as stability
 
 CROSSING_4 = 1 / np.sqrt(16 - STIFFENING)  # f1^2 = 1 + 5.6 Omega^2 meets k^2 Omega^2
@@ -231,7 +231,7 @@ def histories(tmp_path):
 def rest(rom):
     """Gaps given at rest that shrink by 10 and 30 um, along the chord twice as much at its end."""
     taken = {"leading_edge_over_span": None, "trailing_edge_over_span": None}
-    at_rest = {"leading_edge_m": 8e-5, "trailing_edge_m": 12e-5, "at": "rest"}
+    at_rest = {"leading_edge_um": 80, "trailing_edge_um": 120, "at": "rest"}
     scene = Scene.load(ROOT / "workflow/scenes/paper-e1.yaml").but(clearance=taken | at_rest)
     speeds, xi = np.array([0.2, 0.3]), np.array([1, 5, 11, 15]) / 16
     shrunk = np.array([[1e-5], [3e-5]]) * (1 + (xi - 1 / 16) * 16 / 14)
@@ -399,7 +399,7 @@ FIGURES = {
     "design": lambda get: designs.draw(get("design_rows")),
     "sensitivity": lambda get: designs.sensitivity(*read(designs, get("sobol_rows"))),
     "stress": lambda get: stress.draw(*AT_ONE_SIDE),
-    "mesh": lambda get: mesh.draw(get("of_meshes")),
+    "mesh": lambda get: mesh_convergence.draw(get("of_meshes")),
     "stability": lambda get: stability.draw({"engaged": ENGAGED, "intermittent": INTERMITTENT}),
     "worst": lambda get: long_times.growth(*read(long_times, get("cases"), "growth")),
 }
@@ -977,7 +977,7 @@ def test_a_scene_without_spectrum_gets_a_wear_map_without_peaks(sweep, rom):
 def test_clamped_nodes_do_not_move_and_mode_shapes_have_one_scale():
     mesh = np.array([[0, 0, 0], [1, 0, 0], [2, 0, 0]], dtype=float)
     moved = np.array([[[2.0] * 3, [1.0] * 3]])
-    spread = modes_at_rest.spread(mesh, mesh[[2, 1]], moved)
+    spread = modes_at_rest.spread(mesh_convergence, mesh[[2, 1]], moved)
     np.testing.assert_array_equal(spread[0, :, 0], [0, 1, 2])
     np.testing.assert_allclose(
         modes_at_rest.unit_length(spread)[0, :, 0], spread[0, :, 0] / 12**0.5

@@ -12,13 +12,13 @@ from refused import refused
 from scipy.spatial import cKDTree
 
 from geometry.hats import hat_nodes
-from geometry.mesh_file import read_mesh_file
+from geometry.readers import read_mesh_file
 from geometry.tip import cartesian
 from simulate.scene import Contact, Harmonic, Profile, Scene
 from simulate.scene.laws.elastic import Elastic
 from simulate.scene.laws.plastic import Plastic
 from simulate.sweeps.dataset import load as load_sweep, save as save_sweep
-from workflow.figures import views
+from workflow.figures import rendering
 from workflow.jobs.figure import read
 from workflow.paper.figures import around, blade as blade_and_patches, footprint
 from workflow.paper.footprint import FootprintError, at_deepest, into_fresh
@@ -38,7 +38,7 @@ def blade_files(coarse_mesh):
     M = np.eye(PATCHES)
     K = (2 * np.pi * made_rom().f1) ** 2 * M[None]
     rom = replace(made_rom(), xi=hat_nodes(PATCHES), M=M, K=K)
-    return views.read_mesh(coarse_mesh.mesh), rom
+    return rendering.read_mesh(coarse_mesh.mesh), rom
 
 
 @pytest.fixture(scope="module")
@@ -55,9 +55,9 @@ def test_pixels_of_points_agree_with_the_picture(blade):
     """The outermost points of the surface bound the picture, up to the outline 4 pixels wide."""
     look = blade_and_patches.PAINT, (0, 1), blade_and_patches.LIGHT
     zeros = np.zeros(blade.solid.n_points)
-    image = views.picture(blade.solid, 0, zeros, blade_and_patches.VIEW, *look)
-    rows, columns = views.window([image])
-    pixels = views.pixels(blade.solid, blade_and_patches.VIEW, blade.solid.points)
+    image = rendering.picture(blade.solid, 0, zeros, blade_and_patches.VIEW, *look)
+    rows, columns = rendering.window([image])
+    pixels = rendering.pixels(blade.solid, blade_and_patches.VIEW, blade.solid.points)
     low, high = pixels.min(axis=0), pixels.max(axis=0)
     np.testing.assert_allclose(low, [columns.start, rows.start], atol=3)
     np.testing.assert_allclose(high, [columns.stop - 1, rows.stop - 1], atol=3)

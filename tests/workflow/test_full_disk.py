@@ -19,16 +19,16 @@ from test_kills import require_same_arrays
 
 from fem.fields import Fields, Stress
 from fem.matrices import Matrices
+from geometry.base import WriteError, require_writable, write_json
 from geometry.blade import Blade
 from geometry.mesh import build_mesh
-from geometry.project import WriteError, require_writable, write_json
 from rom.check import RomCheck
 from rom.full_model import FullModel
 from rom.model import Rom
 from rom.reconstruct import Basis
 from simulate.__main__ import main
 from simulate.sweeps import dataset, design_runs
-from simulate.sweeps.closing_in import sweep
+from simulate.sweeps.sweep import sweep
 from workflow.figures import style
 
 BLADE = "results/paper"

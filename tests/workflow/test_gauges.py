@@ -8,7 +8,7 @@ import pytest
 import xarray as xr
 from made_sweeps import attrs_of, made_rom
 
-from geometry.project import ROOT
+from geometry.base import ROOT
 from simulate.scene import Scene
 from workflow.figures import spectra
 from workflow.figures.response import Response

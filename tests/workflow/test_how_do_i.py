@@ -6,7 +6,7 @@ import pytest
 import xarray as xr
 from projects import ROOT
 
-from geometry.project import read_json
+from geometry.base import read_json
 from workflow.readme import printed
 
 PAGE = (ROOT / "workflow/how-do-i.md").read_text()

@@ -14,9 +14,7 @@ import yaml
 from projects import ROOT, Project, make_project
 
 from fem.assemble import assemble
-from geometry.given import read_blade
-from geometry.mesh import build_mesh, write_moved
-from geometry.project import (
+from geometry.base import (
     ProvenanceError,
     SettingsError,
     contents,
@@ -24,6 +22,8 @@ from geometry.project import (
     hashes,
     unchanged,
 )
+from geometry.elsewhere import read_blade
+from geometry.mesh import build_mesh, write_moved
 from geometry.shape import source_of
 from workflow.at_work import ANOTHER, hold
 
@@ -37,7 +37,7 @@ BLADES = {  # that differ from the reference blade
     "meshed": {"mesh": None, "mesh_file": {"file": "a.cdb", **OF_MESH}},
 }
 CURVE = "workflow/scenes/curve.csv"
-LINER = {"kind": "table", "E": 1.0, "unit_Pa": 1.64e9}
+LINER = {"kind": "table", "E": 1.0, "unit_MPa": 1640}
 SCENES = {  # that differ from the scene of the model from elsewhere
     "own-law": {"liner": {"law": {"kind": "foam:Foam", "E": 1e9, "sigma_Y": 1e6}}},
     "curved": {"liner": {"law": LINER | {"curve": CURVE}}},
@@ -90,7 +90,7 @@ def texts(digit: str) -> dict[str, str]:
         "workflow/scenes/rows.csv": f"liner.law.curve,rounds\nworkflow/scenes/of-row.csv,{digit}\n",
         "workflow/scenes/laws.csv": "liner.law\n"
         f'"{{kind: row:Foam, E: 1.0e+9, sigma_Y: {digit}.0e+6}}"\n'
-        '"{kind: table, E: 1.0, unit_Pa: 1.64e+9, curve: workflow/scenes/within.csv}"\n',
+        '"{kind: table, E: 1.0, unit_MPa: 1640, curve: workflow/scenes/within.csv}"\n',
     }
 
 
@@ -104,7 +104,7 @@ def finished(tmp_path_factory) -> Project:
     for name, change in BLADES.items():
         values = {"base": "reference", "sections": None} | change
         write(project, f"blades/{name}.yaml", values)
-    matrices = {"full_matrices": MATRICES | {"hub_radius_m": 0.2}, "max_speed_rad_s": 500}
+    matrices = {"full_matrices": MATRICES | {"hub_radius_mm": 200}, "max_speed_rad_s": 500}
     write(project, "blades/matrices.yaml", matrices)
     for name, change in SCENES.items():
         write(project, f"scenes/{name}.yaml", {"base": "foreign"} | change)

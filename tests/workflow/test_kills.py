@@ -17,7 +17,7 @@ import pytest
 from projects import Project, make_project
 
 from fem.matrices import Matrices
-from geometry.project import read_json
+from geometry.base import read_json
 from rom.check import RomCheck
 from rom.full_model import FullModel
 from rom.model import Rom

@@ -42,7 +42,7 @@ def loads_of(coarse_matrices, coarse_blade):
 
 @pytest.mark.parametrize("name", TORQUES)
 def test_torque_of_the_ledger_is_that_of_the_forces(loads_of, name):
-    """Of a tilted tip the ledger has none (``errors.loads``)."""
+    """Of a tilted tip the ledger has none (``loads``)."""
     forces, ledger = (loads_of(without, **TORQUES[name]) for without in ((), "torque"))
     assert forces.no_torque is None and (forces.lines["torque"] > 0).all()
     if name == "tangential":

@@ -11,7 +11,7 @@ import pytest
 from made_sweeps import F1, PROVENANCE, STIFFENING, made_rom
 from test_summary import ANSWER, OF
 
-from geometry.project import write_json
+from geometry.base import write_json
 from rom.check import RomCheck
 from simulate.scene import GROWING
 from simulate.sweeps.crossings import critical

@@ -14,15 +14,15 @@ from exports import parts, write_inp
 from projects import ROOT, make_project
 from refused import refused
 
+from geometry.base import SettingsError, check_settings, read_json, yaml_file
 from geometry.blade import Blade, Frame
 from geometry.mesh import build_mesh
-from geometry.project import SettingsError, check_settings, read_json, yaml_file
 from geometry.sections import loft_parameters
 from geometry.shape import session
 from simulate.scene import Scene
 from simulate.sweeps.peak import Peak
 from workflow import check, new
-from workflow.usage import cpu_seconds
+from workflow.job_cost import cpu_seconds
 
 PAGE = ROOT / "workflow/own-blade.md"
 # the page's blade on the coarse mesh of the tests
@@ -163,7 +163,7 @@ def test_a_new_scene_is_one_of_its_blade(project):
 
 
 MATRICES = """
-full_matrices: {M: M.mtx, K: {"0": K.mtx}, nodes: nodes.csv, tip: tip.csv, hub_radius_m: 0.4}
+full_matrices: {M: M.mtx, K: {"0": K.mtx}, nodes: nodes.csv, tip: tip.csv, hub_radius_mm: 400}
 max_speed_rad_s: 400
 """
 

@@ -7,18 +7,18 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from geometry.project import write_json
-from simulate.errors.signals import LOBE_BLUR
+from geometry.base import write_json
 from simulate.scene import Scene
-from simulate.sweeps.closing_in import sweep
+from simulate.signals import LOBE_BLUR
 from simulate.sweeps.peak import Peak
+from simulate.sweeps.sweep import sweep
 from tests.simulate.scenes import scene
 from workflow.experiment.plan import cases
-from workflow.paper import editions, grid, measure
+from workflow.paper import grid, measure, numbers
 from workflow.paper.cost import cost
 from workflow.paper.laws import slopes_over_closed_form
 from workflow.paper.peaks import worn_at
-from workflow.paper.printed import E, K
+from workflow.paper.published import E, K
 from workflow.paper.signals import mode_share
 
 WORKFLOW = Path(measure.__file__).parents[1]
@@ -304,12 +304,12 @@ def test_editions_are_read_from_the_rows_of_a_table(tmp_path, table):
     files = {"table": rows, "growth": {"half": long}, "model": {"model": {"n": 85}}}
     for name, values in files.items():
         write_json(values, tmp_path / f"{name}.json")
-    found = editions.editions(**{name: tmp_path / f"{name}.json" for name in files})
+    found = numbers.editions(**{name: tmp_path / f"{name}.json" for name in files})
     assert found["half"]["grid"]["worst"]["E"] == 10
     assert found["half"]["long"]["growth"] == {"worst found": 1.5}
     assert found["half"]["e1"] == {"lobes": 2} and found["half"]["model"] == {"n": 85}
     assert found["other"] == {"e1": {"lobes": 4}, "model": {"n": 85}}
-    assert editions.editions(tmp_path / "table.json")["half"]["long"]["growth"] == {}
+    assert numbers.editions(tmp_path / "table.json")["half"]["long"]["growth"] == {}
 
 
 def test_without_peaks_an_edition_has_neither_table_nor_growth(table):
@@ -317,10 +317,10 @@ def test_without_peaks_an_edition_has_neither_table_nor_growth(table):
     rows = [{"names": ["one"], "scene": "grid", "numbers": case} for case in table["cases"]]
     rows.append({"names": ["one"], "scene": "rigid", "numbers": peak_at(1.2, 0.37)})
     grid.coating_of(table, 10.0, 4.55)["peaks"]["4"] = None
-    assert editions.numbers_of(rows, editions.growth_of(rows))["one"].keys() == {"grid"}
+    assert numbers.numbers_of(rows, numbers.growth_of(rows))["one"].keys() == {"grid"}
     for case in table["cases"]:
         case["peaks"]["4"] = None
-    assert editions.numbers_of(rows, editions.growth_of(rows)) == {"one": {}}
+    assert numbers.numbers_of(rows, numbers.growth_of(rows)) == {"one": {}}
 
 
 def test_costs_are_summed_over_the_jobs_in_the_folders_of_a_target(tmp_path):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from made_sweeps import ROUNDS, SAMPLES, made_rom, save_runs
 
-from simulate.errors.signals import spectrum
+from simulate.signals import spectrum
 from workflow.jobs.figure import read
 from workflow.paper.figures import spectrograms
 from workflow.paper.figures.spectrograms import SLICES, WINDOW

@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from geometry.project import read_json, write_json
+from geometry.base import read_json, write_json
 from tests.workflow.projects import make_project
 from tests.workflow.test_claims import AS_IN_THE_PAPER, with_change
 from workflow.paper import page

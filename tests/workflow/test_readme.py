@@ -12,8 +12,8 @@ import yaml
 from made_sweeps import ROOT, save_runs
 from projects import TABLES, make_project
 
+from geometry.base import check_settings, read_json
 from geometry.blade import Blade
-from geometry.project import check_settings, read_json
 from simulate.scene import Scene
 from simulate.scene.laws.plastic import Plastic
 from workflow.figures import table
@@ -58,7 +58,7 @@ def anchors(text):
     [
         "| `integrator.fraction_of_limit` | `central-difference`: Step over the stability limit "
         "with contact | > 0, <= 1 |  |",
-        "| `liner.law.curve.stress_Pa` | `table`: Stress at these strains (Pa), from 0 |  "
+        "| `liner.law.curve.stress_MPa` | `table`: Stress at these strains (MPa), from 0 |  "
         "| required |",
         "| `casing.harmonics[].order` | Nodal diameters | >= 0, <= 200 | required |",
         "| `record.samples_per_round` | Samples per revolution, for spectrum, history and states "
@@ -226,7 +226,7 @@ def example(page, words, tmp_path):
 def test_the_law_that_the_page_adds_is_one(tmp_path):
     """The plastic one without hardening, to round-off."""
     law = example("CONTRIBUTING.md", "class Perfect", tmp_path).Perfect
-    numbers = {"E": 2, "sigma_Y": 1e-3, "unit_Pa": 1e9}
+    numbers = {"E": 2, "sigma_Y": 1e-3, "unit_MPa": 1000}
     own, known = law(kind="perfect", **numbers), Plastic(kind="plastic", K=0, **numbers)
     assert own.modulus == known.modulus
     for eps, eps_p in ((1e-4, 0.0), (1e-3, 0.0), (1e-3, 8e-4), (1e-3, 2e-3), (0.3, 0.1)):

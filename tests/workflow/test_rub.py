@@ -6,8 +6,8 @@ from PIL import Image
 from refused import refused
 from scenes import scene
 
-from geometry.project import UserError
-from simulate.errors.signals import leading_gap, leading_wear
+from geometry.base import UserError
+from simulate.signals import leading_gap, leading_wear
 from simulate.sweeps.over_speeds import as_sweep, at_speeds
 from workflow.explore import rub
 
@@ -80,7 +80,7 @@ def test_speeds_in_rad_s_and_outputs_of_its_own_are_no_hindrance(case, coarse_ro
 
 def test_a_run_that_ends_is_shown_up_to_there(case, coarse_rom, tmp_path):
     thin = case.but(
-        liner={"thickness_m": 5e-7}, casing={"harmonics": [{"order": 2, "amplitude_m": 4e-5}]}
+        liner={"thickness_mm": 0.0005}, casing={"harmonics": [{"order": 2, "amplitude_um": 40}]}
     )
     found = rub.by_rounds(thin, coarse_rom, SPEED)
     assert found.ended == "liner-exhausted" and 1 <= len(found.u_r) < 4

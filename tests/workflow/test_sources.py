@@ -15,8 +15,8 @@ import yaml
 from projects import PACKAGES, ROOT, make_project
 
 import simulate
-from geometry.given import GivenMatrices
-from geometry.project import check_settings, read_json, sources, sources_of
+from geometry.base import check_settings, read_json, sources, sources_of
+from geometry.elsewhere import MatricesElsewhere
 
 PAGE = (ROOT / "rom/README.md").read_text()
 
@@ -90,7 +90,7 @@ def test_all_that_the_face_of_the_simulator_gives_is_loaded_with_its_module():
 
 def test_sources_are_found_beside_a_users_module_of_the_name_of_a_package(tmp_path):
     (tmp_path / "fem.py").write_text("E = 2.1e11")
-    asking = "from geometry.project import sources_of; print(*sources_of('simulate.runs'))"
+    asking = "from geometry.base import sources_of; print(*sources_of('simulate.runs'))"
     command, environment = [sys.executable, "-c", asking], os.environ | {"PYTHONPATH": str(ROOT)}
     done = subprocess.run(
         command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=True
@@ -150,7 +150,7 @@ def jobs(tmp_path_factory):
     text = next(b for b in re.findall(r"```yaml\n(.*?)```", PAGE, re.DOTALL) if "M.mtx" in b)
     blades = project.folder / "workflow/blades"
     (blades / "matrices.yaml").write_text(text)
-    for file in check_settings(GivenMatrices, yaml.safe_load(text), "").files:
+    for file in check_settings(MatricesElsewhere, yaml.safe_load(text), "").files:
         (blades / file).touch()
     (project.folder / "workflow/scenes/gauged.yaml").write_text(GAUGED)
     project.run("-n", *TARGETS)
@@ -227,7 +227,7 @@ APART = {  # module of a job, and what no change of may run it again
     "workflow.jobs.mesh": ("fem/", "rom/", "simulate/"),
     "workflow.jobs.full_model": ("simulate/", "geometry/cad.py"),
     "workflow.jobs.reduced": ("simulate/", "fem/assemble.py", "rom/check.py"),
-    "workflow.jobs.check": ("simulate/",),
+    "workflow.jobs.check_rom": ("simulate/",),
     "workflow.jobs.march": (
         *("fem/", "simulate/sweeps/peak.py", "simulate/sweeps/peak_results.py"),
         *("simulate/scene/sobol.py", "simulate/scene/design.py", "workflow/figures/"),

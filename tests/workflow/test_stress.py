@@ -13,8 +13,8 @@ from fem.fields import TENSOR, fields
 from fem.node_stress import NodeStress
 from fem.solid import read_solid
 from fem.worst_node import cycles, worst
+from geometry.base import ProvenanceError
 from geometry.blade import Fatigue
-from geometry.project import ProvenanceError
 from rom.coarser import coarser
 from rom.reconstruct import Basis
 from simulate.errors.model_errors import ModelError

@@ -7,13 +7,13 @@ from types import SimpleNamespace
 import pytest
 from made_sweeps import made_rom
 
-from geometry.project import write_json
+from geometry.base import write_json
 from geometry.tip import EDGES
 from simulate.errors.beyond_linear import BEYOND
 from simulate.errors.neighbour import ONE_MOTION, TWO_MOTIONS
 from simulate.scene import DYING_OUT, GROWING, TRENDS
 from simulate.sweeps.crossings import critical
-from simulate.sweeps.plain import NO_CROSSING
+from simulate.sweeps.result_types import NO_CROSSING
 from workflow import stress_told, summary
 
 NUMBERS = {

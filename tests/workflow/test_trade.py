@@ -16,11 +16,11 @@ from simulate.marching import Outcome, check_scene
 from simulate.marching.trend import Rounds
 from simulate.scene import Record
 from simulate.scene.design import value_at
-from simulate.sweeps.closing_in import sweep
+from simulate.sweeps.sweep import sweep
 from workflow.experiment.plan import cases
-from workflow.study import levels, trade, trade_table
-from workflow.study.levels import JUDGED, OBSERVABLES
+from workflow.study import trade, trade_table
 from workflow.study.trade import _errors as errors
+from workflow.study.trade_table import JUDGED, OBSERVABLES
 
 ROUNDS, SAMPLES = 20, 256
 RECORD = Record(
@@ -146,7 +146,7 @@ def test_a_sweep_errs_by_its_critical_speed_and_its_peaks(coarse_rom):
     soft = scene(
         speeds={"over_f1": [0.30, 0.32, 0.34, 0.36]},
         record__spectrum_rounds=1,
-        liner__law={"kind": "elastic", "E": 0.02, "unit_Pa": 8e9},
+        liner__law={"kind": "elastic", "E": 0.02, "unit_MPa": 8000},
         peaks={"orders": [4], "within_over_f1": 0.01},
     )
     runs = [sweep(of, coarse_rom) for of in (soft, soft.but(damping_ratio=0.02))]
@@ -249,32 +249,32 @@ def runs():
 def test_the_error_of_the_critical_speed_is_that_of_the_sweep_over_the_peak():
     at_peak = row("a", 1.0, 0.0, on="peak") | {"numbers": {"errors": {"Omega_c": 0.02}}}
     rows = [row("a", 0.1, 0.3, on="resonance"), row("a", 0.1, 0.3), at_peak]
-    at_resonance, elsewhere = levels.group_rows(rows, "front")["Omega_c"]
+    at_resonance, elsewhere = trade_table.group_rows(rows, "front")["Omega_c"]
     assert at_resonance == 0.02 and np.isnan(elsewhere)
 
 
 def test_a_level_is_the_cheapest_setting_that_meets_it_on_every_scene(runs):
     """b is cheap and off by 9 % on one scene, d meets 3 % on both, none meets 1 %: d is best."""
-    draft, standard, reference = levels.levels(runs)
+    draft, standard, reference = trade_table.levels(runs)
     told = [(of["row"], of["met"], of["worst"]) for of in (draft, standard, reference)]
     assert told == [("b", True, 0.09), ("d", True, 0.02), ("d", False, 0.02)]
     unknown = {"errors": dict.fromkeys(OBSERVABLES)}
     failed = [r | {"numbers": r["numbers"] | unknown} if r["row"] == "b" else r for r in runs]
-    assert next(levels.levels(failed))["row"] == "c"  # without a result none is met
+    assert next(trade_table.levels(failed))["row"] == "c"  # without a result none is met
 
 
 def test_the_paper_target_is_the_sum_of_its_marches(runs):
-    counts, draft = levels.MARCHES, next(levels.levels(runs))
+    counts, draft = trade_table.MARCHES, next(trade_table.levels(runs))
     expected = (counts["calm"] * 0.02 + counts["tangential"] * 0.06) / 60
     assert draft["paper_min"] == pytest.approx(expected)
 
 
 def test_the_uncertainty_is_the_larger_of_a_coarser_level_and_another_scheme():
     rows = [
-        row(levels.COARSER, 1.0, 0.001, group="finest", wear=0.01),
-        row(levels.OTHER_SCHEME, 1.0, 0.002, group="scheme"),
+        row(trade_table.COARSER, 1.0, 0.001, group="finest", wear=0.01),
+        row(trade_table.OTHER_SCHEME, 1.0, 0.002, group="scheme"),
     ]
-    told = levels.uncertainty(rows).loc["calm"]
+    told = trade_table.uncertainty(rows).loc["calm"]
     assert (told["amplitude"], told["wear"], told["worst"]) == (0.002, 0.01, 0.01)
     assert np.isnan(told["Omega_c"])
 
@@ -291,10 +291,10 @@ def test_the_tables_have_the_errors_of_the_study(runs):
     sweep_of = {"marches": 39, "errors": {"Omega_c": None, "amplitude": 0.02}}
     rows = [
         *runs,
-        row(levels.COARSER, 1.0, 0.002, group="finest", Omega_c=None),
+        row(trade_table.COARSER, 1.0, 0.002, group="finest", Omega_c=None),
         row("as it is", 0.5, 0.0, group="with"),
         row("wear feedback: elastic law", 0.467, 0.5, **feature),
-        *(row("5", 0.1, 0.042, on=on, group="rounds") for on in levels.SCENES),
+        *(row("5", 0.1, 0.042, on=on, group="rounds") for on in trade_table.SCENES),
         row("15 speeds", 3.25, 0.0, on="sweep", group="speeds") | {"numbers": sweep_of},
         row("closest", 9.0, 0.0, on="sweep", group="speeds") | {"numbers": {"marches": 99}},
     ]

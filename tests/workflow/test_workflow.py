@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from projects import ROOT, SPEEDS, Project, make_project
 
-from geometry.project import read_json, write_json
+from geometry.base import read_json, write_json
 from rom.check import RomCheck
 from rom.model import Rom
 from simulate.sweeps.dataset import load
@@ -292,8 +292,8 @@ def test_nothing_is_marched_on_a_model_that_misses_its_tolerance(touched):
             (
                 E1,
                 "speeds",
-                {"over_f1": None, "rad_s": [6207.0]},
-                "speeds.rad_s: 6207: allowed up to 650",
+                {"over_f1": None, "rpm": [59000.0]},
+                "speeds.rpm: 59000: allowed up to 6207.04",
             ),
             (E10, "start", {"scene": "none"}, "start.scene: 'none': no other scene of workflow/sc"),
             (PEAK, "blade", "none", "blade: 'none'"),

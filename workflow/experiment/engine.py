@@ -18,9 +18,7 @@ from typing import Any
 
 import xarray as xr
 
-from geometry.blade import Blade
-from geometry.given import GivenMatrices, GivenModel, read_blade
-from geometry.project import (
+from geometry.base import (
     ProvenanceError,
     Say,
     UserError,
@@ -32,11 +30,13 @@ from geometry.project import (
     silent,
     write_json,
 )
+from geometry.blade import Blade
+from geometry.elsewhere import MatricesElsewhere, ModelElsewhere, read_blade
 from rom.model import Rom
 from simulate.errors.run import Case, Run
 from simulate.marching import Setup, check_scene, make_kernel, prepare
 from simulate.scene import Scene
-from simulate.sweeps.closing_in import sweep
+from simulate.sweeps.sweep import sweep
 from workflow.experiment.plan import PlannedRow
 from workflow.experiment.row import ExperimentRow
 
@@ -62,7 +62,7 @@ class Marched:
         return self.case.scene
 
     @property
-    def blade(self) -> Blade | GivenMatrices | GivenModel:
+    def blade(self) -> Blade | MatricesElsewhere | ModelElsewhere:
         """Settings of its blade."""
         return read_blade(f"workflow/blades/{self.scene.blade}.yaml")
 
@@ -116,7 +116,7 @@ class Marched:
 
         Raises
         ------
-        geometry.project.errors.UserError
+        geometry.base.errors.UserError
             When it cannot be computed; the message names the row.
         """
         about = {

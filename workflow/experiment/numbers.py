@@ -11,10 +11,10 @@ import numpy as np
 import xarray as xr
 
 from rom.model import Rom
-from simulate.errors.signals import leading_gap, leading_wear
+from simulate.signals import leading_gap, leading_wear
 from simulate.sweeps.dataset import statuses
 from simulate.sweeps.peak import along_order, reported
-from simulate.sweeps.plain import mode_name
+from simulate.sweeps.result_types import mode_name
 
 
 def peaks(runs: xr.Dataset, rom: Rom) -> dict[str, Any]:

@@ -18,7 +18,7 @@ from typing import Any, Literal
 
 from pydantic import Field, field_validator
 
-from geometry.project import (
+from geometry.base import (
     ROOT,
     Fault,
     Settings,

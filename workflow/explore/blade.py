@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from fem.fields import dofs_at, grid_of
 from fem.solid import read_solid
+from geometry.base import UserError
 from geometry.blade import Blade
-from geometry.project import UserError
 from geometry.tetrahedra import exterior
 from rom.model import Rom
 from rom.polynomial import evaluate

@@ -7,12 +7,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from geometry.blade import RPM
+from geometry.base import RPM
 from geometry.tip import EDGES
 from simulate.contact.places import closing_rows
-from simulate.errors.signals import leading_gap, lobe_count
+from simulate.signals import leading_gap, lobe_count
 from simulate.sweeps.peak import along_order
-from workflow.figures.marks import frequencies_over_speed
+from workflow.figures.annotations import frequencies_over_speed
 from workflow.figures.response import Response
 
 HIGHEST = 2.5  # f / f1(0) of spectra

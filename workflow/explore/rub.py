@@ -12,7 +12,7 @@ from matplotlib.animation import FuncAnimation, writers
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
-from geometry.project import UserError, whole
+from geometry.base import UserError, whole
 from rom.model import Rom
 from simulate.contact.gaps import gaps_at, given_gaps
 from simulate.contact.places import share_weights
@@ -21,7 +21,7 @@ from simulate.errors.accuracy import Choice
 from simulate.errors.run import as_long
 from simulate.marching import FinalState, Outcome, Setup, Worn, check_scene, march, prepare
 from simulate.scene import LEADING, Record, Scene
-from simulate.sweeps.before import before
+from simulate.sweeps.continued import before
 from workflow.figures import style
 
 FRAMES, RATE = 16, 16  # in a revolution, in a second
@@ -73,7 +73,7 @@ def by_rounds(
 ) -> Rub:
     """Run the scene at one speed, revolution by revolution, each from the end of the one before.
 
-    ``choice`` and ``start`` are those of the scene, as in ``simulate.sweeps.closing_in.sweep``.
+    ``choice`` and ``start`` are those of the scene, as in ``simulate.sweeps.sweep.sweep``.
 
     Raises
     ------
@@ -81,7 +81,7 @@ def by_rounds(
         As a sweep.
     """
     scene = choice.scene(scene) if choice else scene
-    scene = scene.but(speeds={"over_f1": [over_f1], "rad_s": None, "in_turn": False}, peaks=None)
+    scene = scene.but(speeds={"over_f1": [over_f1], "rpm": None, "in_turn": False}, peaks=None)
     (Omega,) = scene.speeds.omega(rom.f1)
     check_scene(scene, rom)
     first = before(scene, rom, start)(Omega)

@@ -12,10 +12,10 @@ from geometry.blade import MODES, ORDERS
 from rom.check import RomCheck
 from rom.model import Rom
 from simulate.sweeps.crossings import BEYOND, critical
-from simulate.sweeps.plain import CriticalSpeed
+from simulate.sweeps.result_types import CriticalSpeed
 from workflow import margins
 from workflow.figures import style, units
-from workflow.figures.marks import (
+from workflow.figures.annotations import (
     NO_MARKS,
     Marks,
     engine_order,

@@ -3,8 +3,8 @@
 from matplotlib.figure import Figure
 
 from simulate.contact.gaps import given_gaps
-from simulate.errors.signals import gaps_at_ends
 from simulate.scene import LEADING, TRAILING
+from simulate.signals import gaps_at_ends
 from workflow.figures import style, units
 from workflow.figures.response import Response
 

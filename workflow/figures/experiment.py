@@ -5,7 +5,7 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from geometry.project import UserError
+from geometry.base import UserError
 from simulate.scene.design import value_at
 from workflow.experiment.row import ExperimentRow
 from workflow.experiment.table import frame

@@ -10,7 +10,7 @@ from fem.fatigue import MEGA, allowed
 from geometry.blade import Fatigue
 from simulate.scene import GROWING
 from simulate.sweeps.peak import Peak
-from simulate.sweeps.plain import order_name
+from simulate.sweeps.result_types import order_name
 from workflow import stress_told
 from workflow.figures import style
 

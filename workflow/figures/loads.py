@@ -10,10 +10,10 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from rom.model import Rom
-from simulate.errors.loads import mean_force, mean_opening, torque, worn_volume
+from simulate.loads import mean_force, mean_opening, torque, worn_volume
 from simulate.sweeps.peak import Peak
 from workflow.figures import style, units
-from workflow.figures.marks import NO_LINES, operating_lines
+from workflow.figures.annotations import NO_LINES, operating_lines
 from workflow.figures.response import Response
 
 LOOKS = (  # of scenes, distinct without colour

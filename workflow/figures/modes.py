@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from rom.full_model import FullModel
-from workflow.figures import style, views
+from workflow.figures import rendering, style
 
 SHOWN = 0.15  # largest displacement in the pictures, over the blade's largest dimension
 MATCH = 1e-6  # distance of equal nodes at most, over the blade's largest dimension
@@ -20,9 +20,9 @@ VIEW = (0.25, 1.0, -0.35)  # the blade's broad side at an angle
 
 
 @style.styled
-def draw(mesh: views.Mesh, full: FullModel) -> Figure:
+def draw(mesh: rendering.Mesh, full: FullModel) -> Figure:
     """All mode shapes side by side, with the same view and colour scale."""
-    blade = views.solid(mesh)
+    blade = rendering.solid(mesh)
     shapes = unit_length(spread(blade.points, full.coordinates, full.shapes))
     frequencies = full.omega[0, : len(shapes)] / (2 * np.pi)
     height = blade.points[:, 0]
@@ -36,7 +36,7 @@ def draw(mesh: views.Mesh, full: FullModel) -> Figure:
         )
         moved = SHOWN * max(blade.bounds_size) * shape
         rows.append((title, moved, np.linalg.norm(shape, axis=1), VIEW))
-    return views.gallery(
+    return rendering.gallery(
         blade,
         rows,
         (COLOURS, (0, 1), LIGHT),

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from geometry.blade import ORDERS
 from rom.model import Rom
-from simulate.errors.signals import leading_gap, leading_wear
 from simulate.marching import SENSITIVE_FROM, WITH_RESULT
 from simulate.scene import LEADING, Scene
+from simulate.signals import leading_gap, leading_wear
 from simulate.sweeps.dataset import load, scene_of
 from simulate.sweeps.peak import Peak, Responses, peak_of, reported
 from workflow.figures import style, units
@@ -167,7 +167,7 @@ def liner_and_tip(scene: Scene) -> str:
     unit = getattr(law, "unit_Pa", None)
     listed = [
         f"{_symbol(name)} = {PASCAL(rounded(unit * x, 3)) if unit else f'{x:g}'}"
-        for name, x in law.model_dump(exclude={"kind", "unit_Pa"}).items()
+        for name, x in law.model_dump(exclude={"kind", "unit_MPa"}).items()
         if isinstance(x, int | float)  # no curve, nor what a law of one's own may have
     ]
     label = ", ".join([law.called, *listed]) if listed else f"liner: {law.called}"

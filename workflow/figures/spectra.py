@@ -12,13 +12,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from geometry.blade import MODES, RPM
-from simulate.errors.signals import spectrum
+from geometry.base import RPM
+from geometry.blade import MODES
+from simulate.signals import spectrum
 from simulate.sweeps.dataset import SPEED, Sweep
 from simulate.sweeps.peak import Peak, along_order
-from simulate.sweeps.plain import order_name
+from simulate.sweeps.result_types import order_name
 from workflow.figures import style, units
-from workflow.figures.marks import (
+from workflow.figures.annotations import (
     LINE,
     NO_LINES,
     NO_MARKS,

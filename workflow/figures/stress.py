@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from fem.fatigue import MEGA
 from workflow import stress_told
-from workflow.figures import style, views
+from workflow.figures import rendering, style
 
 LEVELS = 10  # of stress, few enough to read as contours
 # Pressure side first: it faces the sense of rotation and downstream. Both from above the tip.
@@ -22,7 +22,7 @@ FIELD = "alternating stress (Pa), "  # and the speed: a name in ``stress.vtu``
 
 
 @style.styled
-def draw(fields: views.Fields, stress: Mapping[str, Any]) -> Figure:
+def draw(fields: rendering.Fields, stress: Mapping[str, Any]) -> Figure:
     """Both sides on one scale; ``fields`` is the blade of ``stress.vtu``, ``stress`` its names."""
     row = next((r for r in stress["speeds"] if r["speed_over_f1"] == stress["worst"]), None)
     heading, sigma, marked = "no motion with a result", np.zeros(fields.n_points), {}
@@ -35,7 +35,7 @@ def draw(fields: views.Fields, stress: Mapping[str, Any]) -> Figure:
     levels = MaxNLocator(LEVELS).tick_values(0, max(sigma.max(), 1.0))
     look = style.MAP.resampled(len(levels) - 1), (levels[0], levels[-1]), LIGHT
     still = np.zeros_like(fields.points)
-    return views.gallery(
+    return rendering.gallery(
         fields,
         [(side, still, sigma, view) for side, view in VIEWS.items()],
         look,

@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 from matplotlib.text import Annotation
 from numpy.typing import NDArray
 
-from geometry.project import whole
+from geometry.base import whole
 
 SINGLE, DOUBLE = 3.5, 7.0  # in, width of one and of two columns
 SPEED_LABEL = r"rotational speed $\Omega / f_1(0)$"

@@ -7,7 +7,7 @@ from typing import Any, Literal, NamedTuple
 
 from pydantic import Field
 
-from geometry.project import Settings, SettingsError, check_settings, merged, read_mapping
+from geometry.base import Settings, SettingsError, check_settings, merged, read_mapping
 from simulate.scene import Scene
 
 DELIVERED = "delivered"  # the part of the table that a plain run delivers

@@ -5,9 +5,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MultipleLocator
 
-from simulate.errors.signals import lobe_count
+from simulate.signals import lobe_count
 from workflow.figures import style, units
-from workflow.figures.marks import CASING_ANGLE, NO_MARKS, Marks, hatch, mark_speeds
+from workflow.figures.annotations import CASING_ANGLE, NO_MARKS, Marks, hatch, mark_speeds
 from workflow.figures.response import Response
 
 DECADES = 2  # of the scale of depths

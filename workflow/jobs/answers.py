@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from geometry.project import Say
+from geometry.base import Say
 from rom.model import Rom
 from simulate.errors.beyond_linear import SecondOrder
 from simulate.errors.model_errors import ModelErrors

@@ -2,14 +2,14 @@
 
 from pathlib import Path
 
-from geometry.project import Say
+from geometry.base import Say
 from rom.model import Rom
 from simulate.errors.accuracy import Choice
 from simulate.scene import Scene
 from simulate.scene.design import Design
 from simulate.sweeps import dataset
-from simulate.sweeps.closing_in import sweep as swept
 from simulate.sweeps.design_runs import Engine, Rows, march_block, merge, row_table, save
+from simulate.sweeps.sweep import sweep as swept
 
 
 def block(

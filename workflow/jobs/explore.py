@@ -2,8 +2,8 @@
 
 from typing import Any
 
+from geometry.base import read_json, write_whole
 from geometry.blade import Blade
-from geometry.project import read_json, write_whole
 from rom.reconstruct import Basis
 from simulate.sweeps.crossings import critical
 from simulate.sweeps.dataset import origin

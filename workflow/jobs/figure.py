@@ -7,11 +7,11 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, get_type_hints
 
-from geometry.project import Provenance
+from geometry.base import Provenance
 from geometry.stored import read as stored
-from workflow.arguments import argument
 from workflow.figures.response import Response
 from workflow.figures.style import save
+from workflow.job_arguments import argument
 
 
 def draw(module: str, files: Any, png: str, pdf: str, given: dict[str, Any] | None = None) -> None:
@@ -42,7 +42,7 @@ def origins(paths: Iterable[str | Path]) -> str:
 
     Raises
     ------
-    geometry.project.provenance.ProvenanceError
+    geometry.base.provenance.ProvenanceError
         When a file holds no provenance.
     """
     texts = (_origin(path) for path in paths if Path(path).suffix == ".nc")

@@ -7,8 +7,8 @@ from fem.cholesky import Cholesky
 from fem.matrices import Matrices
 from fem.second_order import SecondOrder
 from fem.solid import read_solid
+from geometry.base import Say, counted, silent
 from geometry.blade import Blade
-from geometry.project import Say, counted, silent
 from rom.between import resolved
 from rom.full_model import FullModel, solve as solve_at
 from rom.speeds import basis_speeds

@@ -5,7 +5,7 @@ Their check is ``simulate.sweeps.over_speeds.check_sweep``.
 
 from typing import Any
 
-from geometry.project import Say
+from geometry.base import Say
 from rom.model import Rom
 from simulate.errors import accuracy
 from simulate.errors.accuracy import Choice

@@ -1,8 +1,8 @@
 """The mesh of a blade."""
 
+from geometry.base import WARNING, Say
 from geometry.blade import Blade
 from geometry.mesh import ENOUGH, MeshSummary, build_mesh
-from geometry.project import WARNING, Say
 
 
 def build(blade: Blade, mesh: str, report: Say, source: str | None = None) -> None:

@@ -1,8 +1,8 @@
 """The mesh at rest of a blade whose geometry is given as it runs."""
 
 from fem.at_rest import build_mesh_at_rest
+from geometry.base import Say
 from geometry.blade import Blade
-from geometry.project import Say
 from workflow.jobs.mesh import report_mesh
 
 

@@ -1,8 +1,8 @@
 """The reduced model of a blade, and its basis."""
 
 from fem.matrices import Matrices
-from geometry.given import read_blade
-from geometry.project import Say
+from geometry.base import Say
+from geometry.elsewhere import read_blade
 from rom.reconstruct import Basis
 from rom.reduce import reduce
 

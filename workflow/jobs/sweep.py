@@ -2,12 +2,12 @@
 
 from typing import Any
 
-from geometry.project import Say
+from geometry.base import Say
 from rom.model import Rom
 from simulate.errors.accuracy import Choice
 from simulate.scene import Scene
-from simulate.sweeps.closing_in import close_in
 from simulate.sweeps.dataset import Sweep, merge, require_rom, save
+from simulate.sweeps.sweep import close_in
 
 
 def of_blocks(

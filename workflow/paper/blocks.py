@@ -8,7 +8,7 @@ from typing import Any
 from workflow.markdown import WIDTH, table
 from workflow.paper import long, report
 from workflow.paper.claims import COATING
-from workflow.paper.printed import SHIFTS
+from workflow.paper.published import SHIFTS
 from workflow.paper.verdict import HOLDS
 from workflow.summary import OVER_F1, OVER_GAP, over_gap, peaks
 

@@ -7,8 +7,8 @@ it rounds to the paper's.
 from math import degrees, log2, nan
 from typing import Any
 
-from simulate.errors.signals import LOBE_BLUR
-from workflow.paper.printed import (
+from simulate.signals import LOBE_BLUR
+from workflow.paper.published import (
     CONSISTENT,
     CRITICAL,
     CROSSING,

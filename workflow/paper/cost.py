@@ -4,8 +4,8 @@ import csv
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
+from workflow.job_cost import cpu_seconds
 from workflow.markdown import table
-from workflow.usage import cpu_seconds
 
 HEAD = ["target", "jobs measured", "one after another (s)", "CPU (s)", "longest job (s)"]
 

@@ -11,13 +11,13 @@ from numpy.typing import NDArray
 from rom.model import Rom
 from simulate.contact.gaps import given_gaps
 from simulate.contact.strips import Strips, covered_middle, covered_part, offset, profile_at
-from simulate.errors.signals import leading_gap
 from simulate.marching import prepare
 from simulate.scene import LEADING
+from simulate.signals import leading_gap
 from simulate.sweeps.dataset import load, scene_of
 from simulate.sweeps.peak import peak_of
 from workflow.paper.laws import strain_of
-from workflow.paper.printed import ENGINE_ORDER
+from workflow.paper.published import ENGINE_ORDER
 
 STRIP = 0  # the leading one
 BESIDE = 3  # rods shown on either side of the footprint

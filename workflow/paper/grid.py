@@ -11,13 +11,13 @@ import xarray as xr
 
 from rom.model import Rom
 from simulate.contact.gaps import given_gaps
-from simulate.errors.signals import amplitude, spectrum
 from simulate.marching import march, prepare
 from simulate.scene import LEADING, Scene
+from simulate.signals import amplitude, spectrum
 from simulate.sweeps.dataset import statuses
 from simulate.sweeps.over_speeds import as_sweep, at_speeds
 from workflow.paper.peaks import departure, peak
-from workflow.paper.printed import WORST, E, K
+from workflow.paper.published import WORST, E, K
 
 ORDER = "4"  # engine order of the peaks that are compared
 ROUNDS = 200  # ten times the paper's

@@ -12,10 +12,10 @@ POINTS = 41  # of one branch
 LOADING, UNLOADING, RELOADING, LOADING_ON, UNLOADING_AGAIN = range(5)  # branches
 STRAINS = (0.5, 0.8)  # at the ends of the two loadings
 COMPARED = (  # the paper's numbers
-    Plastic(kind="plastic", E=10, K=4.55, sigma_Y=1e-8, unit_Pa=1),
-    Elastic(kind="elastic", E=1, unit_Pa=1),
-    Plastic(kind="plastic", E=10, K=0.45, sigma_Y=1e-8, unit_Pa=1),
-    Plastic(kind="plastic", E=1, K=0.45, sigma_Y=1e-8, unit_Pa=1),
+    Plastic(kind="plastic", E=10, K=4.55, sigma_Y=1e-8, unit_MPa=1e-6),
+    Elastic(kind="elastic", E=1, unit_MPa=1e-6),
+    Plastic(kind="plastic", E=10, K=0.45, sigma_Y=1e-8, unit_MPa=1e-6),
+    Plastic(kind="plastic", E=1, K=0.45, sigma_Y=1e-8, unit_MPa=1e-6),
 )
 
 

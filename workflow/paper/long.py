@@ -6,11 +6,11 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from simulate.errors.signals import leading_gap, leading_wear
+from simulate.signals import leading_gap, leading_wear
 from simulate.sweeps.dataset import Sweep, scene_of
 from simulate.sweeps.peak import along_order
 from workflow.markdown import cell, records, table as rows_of
-from workflow.paper.printed import ENGINE_ORDER
+from workflow.paper.published import ENGINE_ORDER
 
 SWEEPS = {"rest": "from rest", "run_up": "run-up", "run_down": "run-down", "on_worn": "worn liner"}
 

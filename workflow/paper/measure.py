@@ -20,15 +20,15 @@ from rom.check import RomCheck
 from rom.model import Rom
 from rom.polynomial import evaluate
 from simulate.errors.observables import error
-from simulate.errors.signals import leading_gap, leading_wear, spectrum
 from simulate.marching import WITH_RESULT, march, prepare
 from simulate.scene import LEADING, Scene
+from simulate.signals import leading_gap, leading_wear, spectrum
 from simulate.sweeps.crossings import crossing
 from simulate.sweeps.dataset import over_f1, scene_of, statuses
 from simulate.sweeps.peak import Peak, peak_of
 from workflow.paper.grid import coating_of, worst
 from workflow.paper.peaks import lobes_over_speed, peak
-from workflow.paper.printed import WORST
+from workflow.paper.published import WORST
 from workflow.paper.signals import mode_share, spectral_entropy
 
 ORDERS = range(3, 15)  # engine orders along which the paper sees peaks, or could

@@ -1,14 +1,19 @@
-"""Functions of the paper's rules: numbers of its parts as plain values."""
+"""Numbers of the claims: of the paper's scenes, and by edition.
+
+Editions are repeats, choices made otherwise, another blade. The first name of a row of an
+experiment is that of its edition, its label that of the part.
+"""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from geometry.base import read_json
 from rom.model import Rom
 from simulate.scene import Scene
 from simulate.sweeps.dataset import Sweep
 from workflow.experiment.row import ExperimentRow
 from workflow.paper import measure
-from workflow.paper.editions import numbers_of
+from workflow.paper.grid import growth, long_cases, of_rows, worst
 from workflow.paper.laws import slopes_over_closed_form
 from workflow.paper.measure import Numbers
 
@@ -50,8 +55,77 @@ def of_scenes(
     return numbers
 
 
-def worst(table: Sequence[ExperimentRow], growth: Mapping[str, Sequence[Any]]) -> dict[str, Any]:
+def worst_runs(
+    table: Sequence[ExperimentRow], growth: Mapping[str, Sequence[Any]]
+) -> dict[str, Any]:
     """Long runs of the worst coatings, and the peak of the bare casing."""
     (cases,) = growth.values()
     (rigid,) = [row["numbers"] for row in table if row["scene"] == "rigid"]
     return {"cases": cases, "rigid": rigid}
+
+
+def editions(table: str, growth: str = "", model: str = "") -> dict[str, Numbers]:
+    """Numbers of all editions in the table of an experiment.
+
+    ``growth``: file of ``growth_of`` the same table; ``model``: of the reduced models.
+    """
+    model_numbers = read_json(model) if model else {}
+    by_edition = numbers_of(read_json(table), read_json(growth) if growth else {})
+    return {name: numbers | model_numbers for name, numbers in by_edition.items()}
+
+
+def numbers_of(rows: Sequence[ExperimentRow], long: Mapping[str, Any]) -> dict[str, Numbers]:
+    """Numbers by edition and by part; ``long``: ``growth_of`` the same rows.
+
+    Of the coatings they are those of their table, as far as they have peaks.
+    """
+    return {
+        name: _parts(edition) | _long(edition, long.get(name, []))
+        for name, edition in _by_edition(rows).items()
+    }
+
+
+def growth_of(table: Sequence[ExperimentRow]) -> dict[str, Any]:
+    """Long runs of each edition with the table of E and K; None where a coating has no peak."""
+    return {
+        name: [
+            growth(
+                Scene.model_validate(row["settings"]), Rom.load(row["rom"]), long, row["numbers"]
+            )
+            for long, row in _long_rows(edition).items()
+        ]
+        or None
+        for name, edition in _by_edition(table).items()
+        if any(row["scene"] == "grid" for row in edition)
+    }
+
+
+def _by_edition(rows: Sequence[ExperimentRow]) -> dict[str, list[ExperimentRow]]:
+    names = dict.fromkeys(row["names"][0] for row in rows)
+    return {name: [row for row in rows if row["names"][0] == name] for name in names}
+
+
+def _long_rows(rows: Sequence[ExperimentRow]) -> dict[str, ExperimentRow]:
+    """Sequence[ExperimentRow] of the coatings whose growth is followed, by name."""
+    by_coating = {
+        (row["numbers"]["E"], row["numbers"]["K"]): row for row in rows if row["scene"] == "grid"
+    }
+    return {
+        name: by_coating[case["E"], case["K"]] for name, case in long_cases(of_rows(rows)).items()
+    }
+
+
+def _parts(rows: Sequence[ExperimentRow]) -> Numbers:
+    """Numbers by part; of the coatings those of their table."""
+    numbers = {
+        row["scene"]: row["numbers"] for row in rows if row["scene"] not in ("grid", "rigid")
+    }
+    coatings = of_rows(rows)
+    return numbers | ({"grid": measure.table(coatings)} if worst(coatings) else {})
+
+
+def _long(rows: Sequence[ExperimentRow], cases: Sequence[Mapping[str, Any]] | None) -> Numbers:
+    """Growth, and the peak of the bare casing, where there is one."""
+    bare = [row["numbers"] for row in rows if row["scene"] == "rigid"]
+    complete = bare and cases is not None
+    return {"long": measure.long_run(bare[0], cases)} if complete else {}

@@ -7,7 +7,7 @@ from typing import Any
 from jinja2 import Environment
 
 from workflow.paper.claims import CLAIMS
-from workflow.paper.editions import editions
+from workflow.paper.numbers import editions
 from workflow.paper.report import Row, counts, markdown as table, named, ours, share, verdicts
 from workflow.paper.verdict import Numbers
 

@@ -11,8 +11,8 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from rom.model import Rom
-from simulate.errors.signals import leading_gap, leading_wear, lobe_count
 from simulate.marching import WITH_RESULT
+from simulate.signals import leading_gap, leading_wear, lobe_count
 from simulate.sweeps.peak import peak_of
 from workflow.paper.signals import between_lobes
 

@@ -6,7 +6,7 @@ from scipy.signal import ShortTimeFFT
 from scipy.signal.windows import hann
 from scipy.stats import entropy
 
-from simulate.errors.signals import LOBE_BLUR, blurred, spectrum
+from simulate.signals import LOBE_BLUR, blurred, spectrum
 
 MODE_BAND = 0.5  # engine orders on either side of a natural frequency, ascribed to its mode
 

@@ -10,8 +10,8 @@ from tempfile import gettempdir
 from snakemake.exceptions import WorkflowError
 
 from geometry.blade import SOURCES
-from geometry.given import GIVEN, GivenMatrices, GivenModel, read_blade
-from geometry.project import (
+from geometry.elsewhere import ELSEWHERE, MatricesElsewhere, ModelElsewhere, read_blade
+from geometry.base import (
     WARNING,
     SettingsError,
     fingerprint,
@@ -78,7 +78,7 @@ def read_or_fail(read, *arguments):
 
 def files_of(blade):
     """Paths of the files that the blade's file names, by their key; none for parameters."""
-    if isinstance(blade, GIVEN):
+    if isinstance(blade, ELSEWHERE):
         return {blade.key: [Path("workflow/blades", file) for file in blade.files]}
     return {f"{blade.source_key}.file": [Path("workflow/blades", blade.file)]} if blade.file else {}
 
@@ -218,8 +218,8 @@ def keeps_motion(scene):
 
 
 BLADE_FILES = read_or_fail(yaml_file.names, "workflow/blades")
-FOREIGN = blades_with(GivenModel.key)  # of a reduced model made elsewhere
-WITH_MATRICES = blades_with(GivenMatrices.key)  # made elsewhere
+FOREIGN = blades_with(ModelElsewhere.key)  # of a reduced model made elsewhere
+WITH_MATRICES = blades_with(MatricesElsewhere.key)  # made elsewhere
 MESHED = [name for name in BLADE_FILES if name not in (*FOREIGN, *WITH_MATRICES)]
 AS_IT_RUNS = blades_with("geometry_at_rpm")  # whose shape at rest is computed
 SCENES = Scenes.fromkeys(read_or_fail(yaml_file.names, "workflow/scenes"))

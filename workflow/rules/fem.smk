@@ -1,4 +1,4 @@
-FEM_USES = (*GEOMETRY_USES, "material", "max_speed_rad_s", "max_speed_rpm", "prestress")
+FEM_USES = (*GEOMETRY_USES, "material", "max_speed_rpm", "prestress")
 
 
 use rule build_mesh as build_mesh_at_rest with:
@@ -42,7 +42,7 @@ rule assemble:
 rule read_matrices:
     input:
         unpack(blade_source),
-        code=code_of("workflow.jobs.given_matrices"),
+        code=code_of("workflow.jobs.elsewhere"),
     output:
         matrices="results/{blade}/matrices.h5",
     log:
@@ -50,7 +50,7 @@ rule read_matrices:
     wildcard_constraints:
         blade=one_of(WITH_MATRICES),
     params:
-        run="workflow.jobs.given_matrices:read",
+        run="workflow.jobs.elsewhere:read",
         contents=contents_of_blade,
         blade=blade_file,
         uses=lambda wildcards: blade_settings(wildcards.blade).settings_of_matrices(),

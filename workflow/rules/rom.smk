@@ -47,7 +47,7 @@ rule solve_full_model:
 # At the speeds of the matrices from elsewhere: no others are known.
 rule solve_given_model:
     input:
-        code=code_of("workflow.jobs.given_full_model"),
+        code=code_of("workflow.jobs.elsewhere"),
         matrices="results/{blade}/matrices.h5",
     output:
         full="results/{blade}/full-model.nc",
@@ -56,7 +56,7 @@ rule solve_given_model:
     wildcard_constraints:
         blade=one_of(WITH_MATRICES),
     params:
-        run="workflow.jobs.given_full_model:solve",
+        run="workflow.jobs.elsewhere:solve",
     message:
         "Modes and tip compliance of the full model of blade {wildcards.blade}, from elsewhere"
     script:
@@ -66,7 +66,7 @@ rule solve_given_model:
 rule take_rom:
     input:
         unpack(blade_source),
-        code=code_of("workflow.jobs.given_rom"),
+        code=code_of("workflow.jobs.elsewhere"),
     output:
         rom="results/{blade}/rom-{directions}.nc",
     log:
@@ -74,7 +74,7 @@ rule take_rom:
     wildcard_constraints:
         blade=one_of(FOREIGN),
     params:
-        run="workflow.jobs.given_rom:take",
+        run="workflow.jobs.elsewhere:take",
         contents=contents_of_blade,
         blade=blade_file,
     message:
@@ -87,7 +87,7 @@ rule take_rom:
 rule check_rom:
     input:
         unpack(mesh_of),
-        code=code_of("workflow.jobs.check"),
+        code=code_of("workflow.jobs.check_rom"),
         full="results/{blade}/full-model.nc",
         rom="results/{blade}/rom-{directions}.nc",
     output:
@@ -95,7 +95,7 @@ rule check_rom:
     log:
         "results/{blade}/logs/check-rom-{directions}.log",
     params:
-        run="workflow.jobs.check:compare",
+        run="workflow.jobs.check_rom:compare",
         settings=blade_file,
         speeds=lambda wildcards: speeds_of_basis(wildcards)[0] if mesh_of(wildcards) else None,
         tolerance=lambda wildcards: blade_settings(wildcards.blade).basis.tolerance_percent,

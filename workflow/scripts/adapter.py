@@ -15,7 +15,7 @@ from time import monotonic
 from types import ModuleType
 from typing import Any, get_type_hints
 
-from geometry.project import (
+from geometry.base import (
     WARNING,
     Caution,
     UserError,
@@ -26,8 +26,8 @@ from geometry.project import (
     write_json,
     write_whole,
 )
-from workflow.arguments import argument
-from workflow.usage import cpu_time, usage
+from workflow.job_arguments import argument
+from workflow.job_cost import cpu_time, usage
 
 CLEARED = "\r\x1b[2K"  # the line of a terminal, and the cursor at its beginning
 PAUSE = 5.0  # s, least time between two lines of progress on the terminal

@@ -8,7 +8,7 @@ import re
 from pydantic import BaseModel
 from sphinx.application import Sphinx
 
-from geometry.project import ROOT, version as version_of_project
+from geometry.base import ROOT, version as version_of_project
 from workflow.readme import PAGES
 
 project = "Tiprub"

@@ -7,7 +7,7 @@ import numpy as np
 from fem.matrices import Matrices
 from geometry.blade import Blade
 from geometry.hats import mean, over_edges
-from geometry.mesh_file import read_mesh_file
+from geometry.readers import read_mesh_file
 from rom.modes import ShiftInvert
 from simulate.scene import LEADING
 

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from geometry.project import read_json
+from geometry.base import read_json
 from rom.check import RomCheck
 from simulate.errors.neighbours import TWIN
 from simulate.errors.observables import differences

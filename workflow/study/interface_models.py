@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem.fields import away, on_solid
-from fem.interface import interface_of
+from fem.interface_operator import interface_of
 from fem.matrices import Matrices
 from fem.solid import Solid, read_solid
 from geometry.blade import Blade
@@ -20,7 +20,7 @@ from rom.reconstruct import Basis
 from rom.reduce import reduce
 from simulate.marching import largest_state
 from simulate.scene import Scene
-from simulate.sweeps.closing_in import sweep
+from simulate.sweeps.sweep import sweep
 from workflow.study.trade import Row
 
 PATCHES = {  # numbers of patches whose operators are checked, by blade

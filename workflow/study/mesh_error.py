@@ -10,8 +10,8 @@ import numpy as np
 from fem.assemble import assemble
 from fem.at_rest import build_mesh_at_rest
 from fem.matrices import Matrices
+from geometry.base import UserError
 from geometry.blade import Blade
-from geometry.project import UserError
 from rom.full_model import FullModel, compliance_of_strips, solve
 
 COARSER = sqrt(2)  # element size of the coarser mesh over the blade's

@@ -17,7 +17,7 @@ from rom.model import Rom
 from rom.reconstruct import Basis
 from simulate.errors.observables import Observables, error, numbers, observables
 from simulate.errors.run import Run
-from simulate.errors.signals import on_rods
+from simulate.signals import on_rods
 from simulate.sweeps.peak import along_order, peak_of
 from workflow.experiment.engine import Marched
 from workflow.markdown import rounded

@@ -10,7 +10,7 @@ from typing import Annotated, Any, Union
 
 from pydantic import GetPydanticSchema, WrapSerializer, WrapValidator
 
-from geometry.project import one_of
+from geometry.base import one_of
 from simulate.scene import own_laws
 from simulate.scene.law import Law
 

@@ -18,8 +18,8 @@ class Plastic(Unloading):
     kind: Literal["plastic"] = Field(
         description="the paper's, with linear hardening and wear, Eqs. (9)-(16)"
     )
-    K: float = Field(ge=0, le=1e9, description="Plastic modulus (in unit_Pa)")
-    sigma_Y: float = Field(ge=0, le=1e9, description="Elastic limit (in unit_Pa)")
+    K: float = Field(ge=0, le=1e9, description="Plastic modulus (in unit_MPa)")
+    sigma_Y: float = Field(ge=0, le=1e9, description="Elastic limit (in unit_MPa)")
 
     @staticmethod
     def stress(law, eps, eps_p):

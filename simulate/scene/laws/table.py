@@ -16,15 +16,15 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
-from geometry.project import SettingsError, checked
+from geometry.base import SettingsError, checked, shifted
 from simulate.scene.law import Unloading
 from simulate.scene.tables import Points, from_csv
 
-# Columns of the file: the key that each stands for, and its factor to SI
+# Columns of the file: the key that each stands for, and its factor to its unit
 STRAIN = {"strain": ("strain", 1.0), "strain_percent": ("strain", 1e-2)}
 STRESS = {
-    f"stress_{unit}": ("stress_Pa", pascals)
-    for unit, pascals in (("Pa", 1.0), ("kPa", 1e3), ("MPa", 1e6))
+    f"stress_{unit}": ("stress_MPa", mpa)
+    for unit, mpa in (("Pa", 1e-6), ("kPa", 1e-3), ("MPa", 1.0))
 }
 ROUND_OFF = 1e-9  # relative, of a slope that is the modulus
 
@@ -44,11 +44,16 @@ class Curve(Points):
     strain: tuple[float, ...] = Field(
         min_length=2,
         description="Strains, ascending from 0; or `curve: FILE.csv`, with columns strain or "
-        "strain_percent, and stress_Pa, stress_kPa or stress_MPa",
+        "strain_percent, and stress_MPa, stress_kPa or stress_Pa",
     )
-    stress_Pa: tuple[float, ...] = Field(
-        min_length=2, description="Stress at these strains (Pa), from 0"
+    stress_MPa: tuple[float, ...] = Field(
+        min_length=2, description="Stress at these strains (MPa), from 0"
     )
+
+    @property
+    def stress_Pa(self) -> list[float]:
+        """Stress, Pa."""
+        return [shifted(stress, 6) for stress in self.stress_MPa]
 
     @checked
     def _monotone(self) -> None:

@@ -8,12 +8,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from simulate.errors.signals import leading_gap, maxima
+from simulate.signals import leading_gap, maxima
 from workflow.figures import style
-from workflow.figures.marks import CASING_ANGLE, over_casing, speed_text
+from workflow.figures.annotations import CASING_ANGLE, over_casing, speed_text
 from workflow.figures.response import Response
 from workflow.figures.wear import LABEL
-from workflow.paper.printed import ENGINE_ORDER
+from workflow.paper.published import ENGINE_ORDER
 
 DEGREES = np.linspace(0, 360, 721)
 DRAWN = 0.3  # of the radius, the largest distortion or the gap in the drawing

@@ -17,7 +17,7 @@ from geometry.tip import DevelopedTip, cartesian, on_line
 from rom.model import Rom
 from simulate.contact.places import SHARES
 from simulate.scene import LEADING
-from workflow.figures import style, views
+from workflow.figures import rendering, style
 
 VIEW = (0.55, 1.0, 0.45)  # the pressure side, from above the tip
 PAINT = ListedColormap(["#D0D0D0"])
@@ -72,12 +72,12 @@ def tipped(mesh: meshio.Mesh, rom: Rom) -> Tipped:
     """The blade of a mesh, with the patches of its reduced model."""
     facets = mesh.cells_dict["triangle6"][mesh.cell_sets_dict["tip"]["triangle6"]]
     return Tipped(
-        solid=views.solid(mesh), facets=facets, tip=tip_of(facets, mesh.points), nodes=rom.xi
+        solid=rendering.solid(mesh), facets=facets, tip=tip_of(facets, mesh.points), nodes=rom.xi
     )
 
 
 @style.styled
-def draw(mesh: views.Mesh, rom: Rom) -> Figure:
+def draw(mesh: rendering.Mesh, rom: Rom) -> Figure:
     """The whole blade; its tip developed on a plane, to scale; hat functions along the chord."""
     blade = tipped(mesh, rom)
     drawn = style.figure(style.SINGLE, 3.2)
@@ -92,9 +92,9 @@ def draw(mesh: views.Mesh, rom: Rom) -> Figure:
 def _whole(axes: Axes, blade: Tipped) -> None:
     """Draw the skin, and over it the camber line and the unit vectors as the camera sees them."""
     no_values = np.zeros(blade.solid.n_points)
-    picture = views.picture(blade.solid, 0, no_values, VIEW, PAINT, (0, 1), LIGHT)
-    rows, columns = views.window([picture])
-    pixels = views.pixels(blade.solid, VIEW, blade.on_camber(blade.nodes))
+    picture = rendering.picture(blade.solid, 0, no_values, VIEW, PAINT, (0, 1), LIGHT)
+    rows, columns = rendering.window([picture])
+    pixels = rendering.pixels(blade.solid, VIEW, blade.on_camber(blade.nodes))
     nodes = pixels - (columns.start, rows.start)
     axes.imshow(picture[rows, columns], interpolation="none")
     axes.set_axis_off()
@@ -109,7 +109,7 @@ def _frame(axes: Axes, height: int) -> None:
     """Draw the unit vectors next to the hub; that of theta is also the sense of rotation."""
     start = height * np.array(START)
     for label, (unit, offset) in FRAME.items():
-        end = start + LENGTH * height * np.array(unit) @ views.axes_of(VIEW)
+        end = start + LENGTH * height * np.array(unit) @ rendering.axes_of(VIEW)
         axes.annotate("", end, start, arrowprops=style.ARROW, annotation_clip=False)
         _say(axes, end, label, offset)
     axes.set_xlim(left=LEFT * height)

@@ -8,7 +8,7 @@ from matplotlib.ticker import MaxNLocator
 
 from simulate.marching import SENSITIVE_FROM
 from workflow.figures import cells, style
-from workflow.paper.printed import ENGINE_ORDER, WORST
+from workflow.paper.published import ENGINE_ORDER, WORST
 
 NUMBERS = {  # values of a peak: label, digits after the point
     "amplitude": (rf"$\|Y\|$ {style.OVER_GAP}", 2),

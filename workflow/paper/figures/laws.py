@@ -21,7 +21,7 @@ from workflow.paper.laws import (
     strain_at,
 )
 
-READABLE = Plastic(kind="plastic", E=1, K=0.45, sigma_Y=0.15, unit_Pa=1)
+READABLE = Plastic(kind="plastic", E=1, K=0.45, sigma_Y=0.15, unit_MPa=1e-6)
 LINES = (  # of the laws compared
     ("--", style.VERMILLION),
     ("-", style.GREY),

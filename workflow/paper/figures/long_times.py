@@ -10,7 +10,7 @@ from matplotlib.ticker import MultipleLocator
 from simulate.sweeps.peak import along_order
 from workflow.figures import lines, style
 from workflow.figures.response import Response
-from workflow.paper.printed import ENGINE_ORDER
+from workflow.paper.published import ENGINE_ORDER
 
 WAYS = {  # through the peak: format and colour
     "from rest": ("-", style.BLACK),

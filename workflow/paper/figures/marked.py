@@ -9,9 +9,9 @@ from rom.check import RomCheck
 from rom.model import Rom
 from simulate.sweeps.crossings import crossing
 from workflow.figures import campbell, spectra, wear
-from workflow.figures.marks import NO_LINES, Marks
+from workflow.figures.annotations import NO_LINES, Marks
 from workflow.figures.response import Response
-from workflow.paper.printed import CRITICAL, CROSSING, HALF_DIGIT, LOBES, expected
+from workflow.paper.published import CRITICAL, CROSSING, HALF_DIGIT, LOBES, expected
 
 
 def crossings(rom: Rom, check: RomCheck, operating: Mapping[str, Any] = campbell.PLAIN) -> Figure:

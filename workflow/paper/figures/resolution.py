@@ -7,9 +7,9 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from simulate.errors.observables import distance
-from simulate.errors.signals import on_rods
+from simulate.signals import on_rods
 from workflow.figures import style
-from workflow.figures.marks import over_casing
+from workflow.figures.annotations import over_casing
 from workflow.figures.response import Response
 from workflow.markdown import percent
 

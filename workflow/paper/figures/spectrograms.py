@@ -8,10 +8,10 @@ from numpy.typing import NDArray
 
 from simulate.sweeps.peak import Peak
 from workflow.figures import style
-from workflow.figures.marks import speed_text, spread
+from workflow.figures.annotations import speed_text, spread
 from workflow.figures.response import Response
 from workflow.paper.measure import HIGHEST, SPECTRUM_ROUNDS, disorder, share_of_mode_1
-from workflow.paper.printed import ENGINE_ORDER
+from workflow.paper.published import ENGINE_ORDER
 from workflow.paper.signals import spectrogram
 
 MARKED = 7  # natural frequencies marked

@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from geometry.base import in_rpm, shifted
 from geometry.hats import middles
 from simulate.scene import LEADING, Clearance
 
@@ -54,8 +55,7 @@ class Case:
     scheme: str
     step_over_limit: float  # of central differences with contact
     as_fraction: bool  # step given as fraction_of_limit, not as steps_per_round
-    mass_scaling_hz: float | None
-    ramp: float  # part of the time marched over which the casing distorts
+    ramp: float = 0.0  # part of the time marched over which the casing distorts
     # or parts of it, and factors of the distortion there
     table: tuple[Sequence[float], Sequence[float]] | None = None
     footprints: float | None = None  # that the tip passes in a step, in place of the above
@@ -94,7 +94,7 @@ def draw(number: int, drawing: Drawing) -> Case:
     strips = dice.among(drawing.strips)
     if law["kind"] == "rigid":
         strips = drawing.rigid or strips
-    return Case(
+    case = Case(
         scene={
             "speeds": {"over_f1": [_speed(dice)]},
             "rounds": round(dice.decades(1, 5000)),
@@ -102,9 +102,9 @@ def draw(number: int, drawing: Drawing) -> Case:
             **_gap_and_casing(dice, strips),
             "liner": {
                 "law": law,
-                "thickness_m": THICKNESS,
+                "thickness_mm": shifted(THICKNESS, 3),
                 "strips": strips,
-                "footprint_m": 5e-3,
+                "footprint_mm": 5.0,
                 "rods_per_round": _rods(dice),
                 "worn_through": _worn_through(dice, scheme, law, profile),
             },
@@ -118,11 +118,11 @@ def draw(number: int, drawing: Drawing) -> Case:
         scheme=scheme,
         step_over_limit=_step(dice, scheme),
         as_fraction=dice.chance(0.5),
-        mass_scaling_hz=dice.decades(3e3, 3e5) if dice.chance(0.3) else None,
-        ramp=dice.uniform(0.02, 0.6)
-        if dice.chance(0.95 if law["kind"] == "rigid" else 0.6)
-        else 0.0,
     )
+    if dice.chance(0.3):  # of a key that is gone: what is drawn after it stays
+        dice.decades(3e3, 3e5)
+    grows = dice.chance(0.95 if law["kind"] == "rigid" else 0.6)
+    return replace(case, ramp=dice.uniform(0.02, 0.6)) if grows else case
 
 
 def draw_changing(number: int, drawing: Drawing) -> Case:
@@ -142,8 +142,8 @@ def draw_changing(number: int, drawing: Drawing) -> Case:
     speed = 2 * np.pi * F1 * scene["speeds"]["over_f1"][0]  # about Omega, rad/s
     wave = {
         "order": int(dice.uniform(1, 9)),
-        "amplitude_m": harmonic["amplitude_m"] * dice.decades(0.01, 1),
-        "speed_rad_s": speed * dice.among({1.0: 0.1, dice.uniform(-3, 3): 0.9}),
+        "amplitude_um": harmonic["amplitude_um"] * dice.decades(0.01, 1),
+        "speed_rpm": in_rpm(speed * dice.among({1.0: 0.1, dice.uniform(-3, 3): 0.9})),
     }
     scene["casing"] = {"harmonics": [harmonic, wave], "ramp_rounds": 0.0}
     parts = np.sort(dice.uniform(0.02, 1, round(dice.uniform(2, 5))))
@@ -178,7 +178,7 @@ def _law(dice: _Dice) -> dict[str, Any]:
     E = dice.decades(2e3, 1e6) if stiff else dice.decades(1e-3, 1.25e3)
     if kind == "rigid":
         return {"kind": kind}
-    law = {"kind": kind, "E": E, "unit_Pa": UNIT}
+    law = {"kind": kind, "E": E, "unit_MPa": shifted(UNIT, -6)}
     if kind == "plastic":
         of_paper, any_K = 0.45 * E, dice.decades(1e-3, 1e6)
         law["K"] = {"paper": of_paper, "any": any_K, "perfect": 0.0}[
@@ -216,7 +216,7 @@ def _gap_and_casing(dice: _Dice, strips: int) -> dict[str, Any]:
     order = int(dice.uniform(0, 13))
     harmonic = {
         "order": order,
-        "amplitude_m": max(gap + beyond, 0.0),
+        "amplitude_um": shifted(max(gap + beyond, 0.0), 6),
         "phase_deg": -order * FIRST_STRIP_DEG[strips] + phase,
     }
     return {
@@ -238,7 +238,7 @@ def _worn_through(dice: _Dice, scheme: str, law: Mapping[str, Any], profile: boo
 
 
 def _contact(dice: _Dice) -> dict[str, Any]:
-    profile = {"edge_drop_m": dice.decades(1e-6, 1e-3)}
+    profile = {"edge_drop_um": shifted(dice.decades(1e-6, 1e-3), 6)}
     if dice.chance(0.5):
         profile["tilt"] = dice.uniform(-0.1, 0.1)
     return {"profile": profile, "tangential": True}

@@ -22,7 +22,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from geometry.project import SettingsError, UserError, check_settings
+from geometry.base import SettingsError, UserError, check_settings
 from rom.model import Rom
 from simulate.errors.checked import checked
 from simulate.errors.neighbour import Neighbour
@@ -77,8 +77,7 @@ def ready(case: Case, rom: Rom) -> Ready:
 
 def _prepared(case: Case, rom: Rom, integrator: Mapping[str, Any]) -> tuple[Scene, Setup]:
     """The case's scene and set-up with an integrator, checked."""
-    scaled = {**integrator, "mass_scaling_hz": case.mass_scaling_hz}
-    values = {**case.scene, "blade": rom.provenance.blade, "integrator": scaled}
+    values = {**case.scene, "blade": rom.provenance.blade, "integrator": integrator}
     scene = check_settings(Scene, values, "scene.yaml")
     check_scene(scene, rom)
     return scene, prepare(scene, rom, float(scene.speeds.omega(rom.f1)[0]))
@@ -87,7 +86,7 @@ def _prepared(case: Case, rom: Rom, integrator: Mapping[str, Any]) -> tuple[Scen
 def _integrator(case: Case, rom: Rom, limit: float) -> dict[str, Any]:
     """Settings of the integrator; ``limit`` of central differences, s."""
     if case.footprints:
-        around = 2 * np.pi * rom.camber[:, 0].mean() / case.scene["liner"]["footprint_m"]
+        around = 2 * np.pi * rom.camber[:, 0].mean() / (case.scene["liner"]["footprint_mm"] / 1e3)
         steps = {"steps_per_round": max(int(around / case.footprints / SAMPLES), 1) * SAMPLES}
     elif case.scheme == EXPLICIT and case.as_fraction:
         steps = {"fraction_of_limit": case.step_over_limit}
@@ -128,9 +127,8 @@ def references(of: Ready) -> tuple[Run, Run]:
 def _by(scheme: str, of: Ready, times: int) -> Run:
     """March by ``scheme`` with a step ``times`` shorter."""
     by = CentralDifference if scheme == EXPLICIT else PiecewiseExact
-    scaled = of.case.scene.integrator.mass_scaling_hz
     # steps_per_round is replaced by the steps of the set-up
-    of_scheme = by(scheme=scheme, steps_per_round=SAMPLES, mass_scaling_hz=scaled)
+    of_scheme = by(scheme=scheme, steps_per_round=SAMPLES)
     case = replace(of.case, scene=of.case.scene.but(integrator=of_scheme))
     return case.neighbour(Neighbour("a reference", steps=times)).march()
 

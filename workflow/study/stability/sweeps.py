@@ -10,7 +10,7 @@ from dataclasses import replace
 from itertools import count, islice
 from typing import Any
 
-from geometry.project import SettingsError
+from geometry.base import SettingsError
 from rom.model import Rom
 from simulate.errors.checked import checked
 from simulate.errors.observables import LEAST, numbers as numbers_of

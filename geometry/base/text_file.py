@@ -1,0 +1,127 @@
+"""Text files of users: which of them are read, numbers, and rows of CSV files, also written."""
+
+import csv
+import os
+import re
+from collections.abc import Collection, Iterable, Iterator, Sequence
+from io import StringIO
+from pathlib import Path
+
+from geometry.base.errors import SettingsError, shown
+
+MOST_BYTES = 2**26  # of a table; decks of meshes may be larger
+NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eEdD][-+]?\d+)?", re.ASCII)
+
+
+def require_file(path: Path, suffixes: Collection[str]) -> None:
+    """Refuse a file that does not exist, or has none of the ``suffixes`` that can be read.
+
+    Raises
+    ------
+    SettingsError
+        Without the path, as ``read_text``.
+    """
+    if path.suffix.lower() not in suffixes:
+        raise SettingsError(
+            f"suffix {path.suffix or 'missing'}: known are {', '.join(suffixes)}",
+            value=path.suffix,
+            allowed=list(suffixes),
+        )
+    if not path.is_file():
+        raise SettingsError("there is no such file")
+
+
+def read_text(path: str | Path, most: int | None = MOST_BYTES, errors: str = "strict") -> str:
+    """Text of a file in UTF-8, with or without a byte-order mark.
+
+    ``errors="replace"`` is for files of other programs, whose comments may be in any encoding.
+
+    Raises
+    ------
+    SettingsError
+        When it cannot be read, is no regular file (reading a pipe would never end), is longer than
+        ``most`` bytes, or is no UTF-8 text; the message does not have the path.
+    """
+    try:
+        if os.path.exists(path) and not os.path.isfile(path):
+            raise SettingsError("is no file that can be read, but a folder, pipe or device")
+        if most is not None and (size := os.path.getsize(path)) > most:
+            raise SettingsError(f"has {size} bytes: allowed up to {most}")
+        data = Path(path).read_bytes()
+    except OSError as error:
+        raise SettingsError(f"cannot be read ({error.strerror})") from None
+    try:
+        return data.decode("utf-8-sig", errors)
+    except UnicodeDecodeError as error:
+        wide = data.startswith((b"\xff\xfe", b"\xfe\xff"))
+        place = f"byte {error.start + 1} is none" if not wide else "it is UTF-16"
+        raise SettingsError(f"is no UTF-8 text ({place}): save it as UTF-8") from None
+
+
+def number(text: str) -> float:
+    """A number in decimals, also with the exponent D of Fortran.
+
+    Python's ``float`` would read 1_0 as 10, and also nan and infinity.
+
+    >>> number("1.5D+01"), number(" -.5 ")
+    (15.0, -0.5)
+
+    Raises
+    ------
+    ValueError
+        When it is none, or is too large.
+    """
+    if not NUMBER.fullmatch(text.strip()):
+        raise ValueError(f"{shown(text)} is no number")
+    value = float(text.upper().replace("D", "E"))
+    if abs(value) == float("inf"):
+        raise ValueError(f"{shown(text)} is too large")
+    return value
+
+
+def csv_rows(path: str | Path) -> Iterator[tuple[int, list[str]]]:
+    """Line numbers and cells of the lines of a CSV file, but for empty ones and comments (#).
+
+    Raises
+    ------
+    SettingsError
+        When the file cannot be read, a quote is not closed in its line, or cells are separated by
+        semicolons or tabs.
+    """
+    for number, line in enumerate(read_text(path).splitlines(), 1):
+        if not line.strip() or line.lstrip()[0] == "#":
+            continue
+        try:
+            (cells,) = csv.reader([line], skipinitialspace=True, strict=True)
+        except (csv.Error, ValueError) as error:
+            raise SettingsError(f"is no line of a CSV file ({error})", line=number) from None
+        if len(cells) == 1 and re.search(r"[^{\[].*[;\t]", line):
+            raise SettingsError("needs commas between its cells, not ; or tabs", line=number)
+        yield number, [cell.strip() for cell in cells]
+
+
+def numbers(cells: Sequence[str], columns: Sequence[str], line: int) -> list[float]:
+    """Numbers of a line of a CSV file, one for each of the ``columns``.
+
+    Raises
+    ------
+    SettingsError
+        When there are more or fewer, or one is no number; it has the ``line``.
+    """
+    if len(cells) != len(columns):
+        raise SettingsError(f"needs {', '.join(columns)}: found {len(cells)} cells", line=line)
+    try:
+        return [number(cell) for cell in cells]
+    except ValueError as error:
+        raise SettingsError(f"{error}; needs {', '.join(columns)}", line=line) from None
+
+
+def csv_text(rows: Iterable[Sequence[object]]) -> str:
+    r"""Text of a CSV file.
+
+    >>> csv_text([["E", "says"], [1.5, "a, b"]])
+    'E,says\n1.5,"a, b"\n'
+    """
+    text = StringIO()
+    csv.writer(text, lineterminator="\n").writerows(rows)
+    return text.getvalue()

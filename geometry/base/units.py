@@ -1,0 +1,70 @@
+"""Units of what users write: one for each quantity, named in the key, in all files.
+
+mm for parts, um for gaps and motions, rpm for speeds, GPa for stiffness, MPa for stress and moduli
+of liners, deg for angles. Inside, and in files of results, all is SI. ``FORMER`` has the keys of
+0.3.0 in other units, which are still read.
+"""
+
+from collections.abc import Callable
+from decimal import Decimal
+from functools import partial
+from math import inf, nextafter, pi
+from typing import Any, NamedTuple
+
+RPM = 30 / pi  # of 1 rad/s
+
+
+def shifted(value: float, power: int) -> float:
+    """``value`` times ten to a power, exact in its decimals: lengths in m and mm are the same bits.
+
+    >>> shifted(2.48, -3), shifted(0.00248, 3), 2.48e-6 * 1e6 == 2.48
+    (0.00248, 2.48, True)
+    """
+    return float(Decimal(repr(float(value))).scaleb(power))
+
+
+def in_rpm(rad_s: float) -> float:
+    """A speed in rpm that is ``rad_s`` again over ``RPM``."""
+    rpm = rad_s * RPM
+    near = (rpm, nextafter(rpm, inf), nextafter(rpm, -inf))
+    return next((value for value in near if value / RPM == rad_s), rpm)
+
+
+class Former(NamedTuple):
+    """A key of 0.3.0: its key now, the number in its unit, and back."""
+
+    now: str
+    to_now: Callable[[float], float]
+    back: Callable[[float], float]
+
+
+def _ten(now: str, power: int) -> Former:
+    """A unit that is ten to ``power`` of that of now."""
+    return Former(now, partial(shifted, power=power), partial(shifted, power=-power))
+
+
+FORMER = {
+    **{f"{edge}_edge_m": _ten(f"{edge}_edge_um", 6) for edge in ("leading", "trailing")},
+    **{
+        f"{name}_m": _ten(f"{name}_um", 6) for name in ("amplitude", "depth", "growth", "edge_drop")
+    },
+    **{f"{name}_m": _ten(f"{name}_mm", 3) for name in ("thickness", "footprint", "hub_radius")},
+    **{f"{name}_Pa": _ten(f"{name}_MPa", -6) for name in ("unit", "stress")},
+    **{
+        f"{name}rad_s": Former(f"{name}rpm", in_rpm, lambda rpm: rpm / RPM)
+        for name in ("", "speed_", "max_speed_")
+    },
+}
+# each key by the other one of the same quantity
+OTHER = {key: former.now for key, former in FORMER.items()}
+OTHER |= {now: key for key, now in OTHER.items()}
+
+
+def converted(value: Any, convert: Callable[[float], float]) -> Any:
+    """All numbers of a value of a key: of a list, or of a range by its ends."""
+    if isinstance(value, dict):
+        return {k: v if k == "count" else converted(v, convert) for k, v in value.items()}
+    if isinstance(value, list | tuple):
+        return [converted(item, convert) for item in value]
+    number = isinstance(value, int | float) and not isinstance(value, bool)
+    return convert(value) if number else value

@@ -1,0 +1,195 @@
+"""Reduced models made elsewhere: ours, written as the page says, and one fault at a time."""
+
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+from refused import refused
+
+from rom.__main__ import main
+from rom.coarser import coarser
+from rom.elsewhere import UNCHECKED, read_elsewhere, report
+from rom.model import RomError
+from simulate.errors.accuracy import require_model
+from simulate.errors.model_errors import ModelErrors
+
+PAGE = Path(__file__).parents[2] / "rom/README.md"
+
+
+def written(rom, path, **changes):
+    """The fields of the contract, with other values of some; None leaves one out."""
+    values = {
+        "M": (("dof", "dof_"), rom.M),
+        "K": (("power", "dof", "dof_"), rom.K),
+        "directions": ("direction", list(rom.directions)),
+        "xi": ("xi", rom.xi),
+        "camber": (("place", "rtz"), rom.camber),
+        "Omega_m": rom.Omega_m,
+        "span": rom.span,
+        "power": ("power", 2 * np.arange(len(rom.K))),
+    } | changes
+    kept = {name: value for name, value in values.items() if value is not None}
+    xr.Dataset(kept).to_netcdf(path, engine="h5netcdf")
+    return path
+
+
+def test_model_is_that_of_the_file(coarse_rom, tmp_path):
+    path = written(coarse_rom, tmp_path / "mine.nc")
+    rom = read_elsewhere(path, "mine")
+    for name in ("M", "K", "xi", "camber", "directions", "Omega_m", "span"):
+        np.testing.assert_array_equal(getattr(rom, name), getattr(coarse_rom, name))
+    assert rom.f1 == pytest.approx(coarse_rom.f1, rel=1e-8)  # of all modes; round-off
+    assert (rom.provenance.blade, rom.elsewhere, rom.growth.size) == ("mine", True, 0)
+    rom.save(tmp_path / "rom-r.nc")
+    assert type(rom).load(tmp_path / "rom-r.nc").provenance == rom.provenance
+
+
+def test_accuracy_takes_a_foreign_model_and_says_what_it_does_not_know(coarse_rom, tmp_path):
+    rom = read_elsewhere(written(coarse_rom, tmp_path / "mine.nc"), "mine")
+    none = tmp_path / "none.nc"
+    require_model(0.01, ModelErrors.of(none, none, rom).largest)
+    half, _ = coarser(rom)
+    ours, _ = coarser(coarse_rom)
+    assert len(half.xi) == len(rom.xi) // 2
+    assert half.modes(0.0)[0][0] == pytest.approx(ours.modes(0.0)[0][0], rel=1e-6)
+
+
+def ill(rom):
+    """Faults by the word that the message has for them: changes of the file."""
+    skewed = rom.M.copy()
+    skewed[0, 1] += 0.1 * abs(rom.M).max()
+    loose = rom.K - 2 * rom.K[0] * (np.arange(len(rom.K)) == 0)[:, None, None]
+    soft = rom.K.copy()
+    soft[1] = -2 * rom.K[0] / rom.Omega_m**2
+    soft[2:] = 0
+    n, camber = len(rom.xi), rom.camber
+    points = rom.line(rom.xi)
+    points[1, 2] += 0.02
+    K = (("power", "dof", "dof_"), rom.K)
+    flat = rom.M.copy()
+    flat[-1], flat[:, -1] = 0, 0
+    flat[-1, -1] = 1e-25
+    return {
+        "M: not symmetric": {"M": (("dof", "dof_"), skewed)},
+        "M: not positive definite": {"M": (("dof", "dof_"), -rom.M)},
+        "K: not positive definite at 0 rad/s": {"K": (K[0], loose)},
+        "K: not positive definite at 4": {"K": (K[0], soft)},  # beyond 460 rad/s
+        "lacks camber, span": {"camber": None, "span": None},
+        "power: ": {"power": ("power", np.arange(len(rom.K)))},
+        "directions: ": {"directions": ("direction", ["tangential"])},
+        "xi: must ascend": {"xi": ("xi", rom.xi[::-1])},
+        "nodes of hat functions begin at 0": {"xi": ("xi", (np.arange(n) + 0.5) / n)},
+        "camber: z falls": {"camber": (("place", "rtz"), camber[::-1])},
+        "span: 140 m": {"span": 1e3 * rom.span},
+        "span: 0.6 m, radius of the tip 0.5624 m": {"span": 0.6},
+        "theta goes over 4.539 rad": {
+            "camber": (("place", "rtz"), camber * [1, 180 / np.pi, 1]),
+        },
+        "Omega_m: -650 rad/s": {"Omega_m": -rom.Omega_m},
+        "M, K: first frequency at rest 8201 Hz": {"M": (("dof", "dof_"), rom.M / 1e3)},
+        "M, K: first frequency at rest 8.201 Hz": {"K": (K[0], rom.K / 1e3)},
+        "f1: nan Hz": {"f1": np.nan},
+        "Omega_m: 1 dimensions": {"Omega_m": ("speed", [1.0, 2.0])},
+        "span: 0 dimensions of type <U1": {"span": "x"},
+        "M: 2 dimensions of type complex128": {"M": (("dof", "dof_"), rom.M + 0j)},
+        "K (0, ": {"K": (K[0], rom.K[:0]), "power": ("power", [])},
+        "must be above 1e-14 of its largest": {"M": (("dof", "dof_"), flat)},
+        "check the unit (rad/s": {"Omega_m": rom.Omega_m * 60 / (2 * np.pi)},
+        "f1: 0.259": {"f1": 1e-3 * rom.f1},
+        "point 2 lies": {"points": (("point", "rtz"), points)},
+        "holds values that are not finite": {"span": np.nan},
+        "xi: 0 places": {"xi": ("none", [])},
+        "xi: 1 places": {"xi": ("one", [0.5])},
+        "xi: 8 places with 0 directions": {"directions": ("none", np.array([], str))},
+        "across: needs 1, or 2 for patches": {"across": 2},
+        "across: needs 1": {"across": np.nan},
+        "sides (2, 3)": {"sides": (("side", "there"), np.ones((2, 3)))},
+        "sides: need angles": {"sides": (("side", "place"), rom.sides[::-1])},
+        "sides: need angles (rad)": {"sides": (("side", "place"), np.degrees(rom.sides))},
+        "xi: 12 places": {
+            "xi": ("xi", np.linspace(0, 1, 12)),
+            "M": (("dof", "dof_"), rom.M[:9, :9]),
+            "K": (K[0], rom.K[:, :9, :9]),
+        },
+    }  # fmt: skip
+
+
+FAULTS = (
+    "M: not symmetric", "M: not positive definite", "K: not positive definite at 0 rad/s",
+    "K: not positive definite at 4", "lacks camber, span", "power: ", "directions: ",
+    "xi: must ascend", "nodes of hat functions begin at 0", "camber: z falls", "span: 140 m",
+    "span: 0.6 m, radius of the tip 0.5624 m", "theta goes over 4.539 rad", "Omega_m: -650 rad/s",
+    "M, K: first frequency at rest 8201 Hz", "M, K: first frequency at rest 8.201 Hz",
+    "f1: nan Hz", "Omega_m: 1 dimensions", "span: 0 dimensions of type <U1",
+    "M: 2 dimensions of type complex128", "K (0, ", "must be above 1e-14 of its largest",
+    "check the unit (rad/s", "f1: 0.259", "point 2 lies", "holds values that are not finite",
+    "across: needs 1, or 2 for patches", "across: needs 1", "sides (2, 3)", "sides: need angles",
+    "sides: need angles (rad)", "xi: 0 places", "xi: 1 places", "xi: 8 places with 0 directions",
+    "xi: 12 places",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+def test_each_fault_is_a_line_with_its_file(fault, coarse_rom, tmp_path):
+    changes = next(c for name, c in ill(coarse_rom).items() if name.startswith(fault))
+    path = written(coarse_rom, tmp_path / "mine.nc", **changes)
+    with pytest.raises(RomError) as caught:
+        read_elsewhere(path, "mine")
+    lines = str(caught.value).splitlines()
+    assert any(fault in line for line in lines), lines
+    assert all(line.startswith(f"{path}: ") for line in lines)
+    assert main(["check", str(path)]) == 2
+
+
+def test_command_line_shows_what_it_sees_and_what_it_cannot(coarse_rom, tmp_path, capsys):
+    path = written(coarse_rom, tmp_path / "mine.nc")
+    assert main(["check", str(path)]) == 0
+    shown = capsys.readouterr().out
+    assert f"{coarse_rom.f1:.2f}" in shown
+    assert all(line in shown for line in UNCHECKED)
+    (tmp_path / "text.nc").write_text("M")
+    assert main(["check", str(tmp_path / "text.nc")]) == 2
+    assert "cannot be read as NetCDF 4" in capsys.readouterr().err
+
+
+def test_points_have_a_strip_each(coarse_rom, tmp_path):
+    """Points on the camber line in place of hats."""
+    xi = (np.arange(len(coarse_rom.xi)) + 0.5) / len(coarse_rom.xi)
+    points = coarse_rom.line(xi)
+    path = written(
+        coarse_rom, tmp_path / "mine.nc", xi=("xi", xi), points=(("point", "rtz"), points)
+    )
+    rom = read_elsewhere(path, "mine")
+    assert rom.of_points
+    refused(RomError, coarser, rom)
+
+
+def test_superelements_of_each_speed_are_not_one_model(coarse_rom):
+    """The trap: interpolated over coordinates of their own each, f1 between is not the blade's.
+
+    At each of the two ends the frequencies are exact.
+    """
+    K = [coarse_rom.stiffness(Omega) for Omega in (0.0, coarse_rom.Omega_m)]
+    turned = np.linalg.qr(np.random.default_rng(1).normal(size=(coarse_rom.n,) * 2))[0]
+    own = np.linalg.cholesky(coarse_rom.M)
+    T = np.linalg.solve(own.T, turned @ own.T)  # T^T M T = M: other coordinates, same mass
+    trap = replace(
+        coarse_rom,
+        K=np.stack([K[0], (T.T @ K[1] @ T - K[0]) / coarse_rom.Omega_m**2]),
+    )
+    for Omega in (0.0, coarse_rom.Omega_m):
+        np.testing.assert_allclose(trap.modes(Omega)[0], coarse_rom.modes(Omega)[0], rtol=1e-6)
+    middle = coarse_rom.Omega_m / np.sqrt(2)
+    assert trap.modes(middle)[0][0] > 3 * coarse_rom.modes(middle)[0][0]
+
+
+def test_report_of_ours_has_the_growth(coarse_rom, tmp_path):
+    path = written(
+        coarse_rom,
+        tmp_path / "mine.nc",
+        growth=(("growth_power", "growth_xi"), coarse_rom.growth),
+    )
+    assert any(re.match(r"growth of the tip at Omega_m: 0\.0", line) for line in report(path).shown)

@@ -1,0 +1,42 @@
+"""The check of a reduced model against the full one."""
+
+import numpy as np
+
+from geometry.base import Say
+from rom.check import check, further_speeds
+from rom.full_model import FullModel
+from rom.model import Rom
+
+
+def compare(
+    rom: Rom,
+    full: FullModel,
+    settings: str,
+    tolerance: float,
+    speeds: list[float] | None,
+    checked: str,
+    report: Say,
+    mesh: str | None = None,
+) -> None:
+    """Compare both models; at further speeds, too, where neighbours among ``speeds`` disagree.
+
+    ``settings``: the blade's file; ``speeds``: of its basis, rad/s, None for matrices from
+    elsewhere, which have no others.
+
+    Raises
+    ------
+    rom.model.RomError
+        When the error exceeds the tolerance, %.
+    """
+    result = check(rom, full)
+    more = further_speeds(result, np.array(speeds), tolerance) if speeds else np.empty(0)
+    if more.size:
+        from workflow.jobs.full_model import solved_at  # FEniCSx is imported for nothing else
+
+        shown = ", ".join(f"{speed:.6g}" for speed in more)
+        report(f"errors at neighbouring speeds disagree: full model at {shown} rad/s, too")
+        result = check(rom, full.joined(solved_at(more, settings, mesh)))
+    print(f"full model solved at {', '.join(f'{speed:.6g}' for speed in result.speeds)} rad/s")
+    print(f"largest frequency error of each mode: {abs(result.error).max(axis=0)}")
+    result.require(tolerance)
+    result.save(checked)

@@ -1,0 +1,32 @@
+"""Matrices and reduced models made elsewhere."""
+
+from pathlib import Path
+
+from fem.elsewhere import read_matrices
+from fem.matrices import Matrices
+from geometry.elsewhere import read_blade
+from rom.elsewhere import UNCHECKED, check_elsewhere, read_elsewhere
+from rom.full_model import solve as solve_at
+
+
+def read(blade: str, matrices: str) -> None:
+    """Read matrices, and make their interface operator."""
+    path = Path(blade)
+    fom = read_matrices(read_blade(path), path.stem, path.parent)
+    print(f"{len(fom.coordinates)} free nodes, K at {fom.speeds} rad/s")
+    fom.save(matrices)
+
+
+def solve(matrices: Matrices, full: str) -> None:
+    """Modes of the full model and its compliance, at the speeds of the matrices."""
+    solved = solve_at(matrices, matrices.states())
+    print(f"largest residual of a mode: {solved.residuals.max():.1e}")
+    solved.save(full)
+
+
+def take(blade: str, source: str, names: dict[str, str], rom: str) -> None:
+    """Take a reduced model, if its checks find no fault."""
+    taken = read_elsewhere(source, Path(blade).stem)
+    taken.require_directions(names["directions"])
+    print(*check_elsewhere(taken).shown, "not checked:", *UNCHECKED, sep="\n")
+    taken.save(rom)
