@@ -5,8 +5,6 @@ twenty lines with aliases stand for more values than a computer holds.
 """
 
 import re
-from collections.abc import Iterator
-from contextlib import suppress
 from typing import Any
 
 import yaml
@@ -17,9 +15,12 @@ MOST_CHARACTERS = 2**19
 MOST_VALUES = 20_000  # also where aliases repeat them; parsed in some seconds
 DEEPEST = 32  # mappings and lists within one another
 LONGEST_KEY = 100  # characters
-TIMESTAMP, INT, FLOAT = (f"tag:yaml.org,2002:{name}" for name in ("timestamp", "int", "float"))
-# numbers without leading zeros, which make them octal, and none in sixties, as 1:30
-IN_DECIMALS = {INT: re.compile(r"[-+]?(0|[1-9][0-9_]*)"), FLOAT: re.compile(r"[^:]*")}
+TIMESTAMP, INT, FLOAT, *OF_KEYS = (
+    f"tag:yaml.org,2002:{name}" for name in ("timestamp", "int", "float", "str", "merge")
+)
+# A number without leading zeros, which make it octal, and not in sixties, as 1:30. Whole ones have
+# as many digits as Python reads; others have a point.
+IN_DECIMALS = re.compile(r"[-+]?(0|[1-9](_*[0-9]){0,4299}_*)|[^:]*\.[^:]*")
 
 type Keys = tuple[str, ...]  # from the root, items of lists by their numbers
 
@@ -45,7 +46,8 @@ def parse(text: str) -> tuple[Any, dict[Keys, int]]:
         node = loader.get_single_node()
         if node is None:
             return None, {}
-        lines = _lines(node)
+        lines: dict[Keys, int] = {}
+        _locate(node, (), lines)
         return loader.construct_document(node), lines
     except yaml.MarkedYAMLError as error:
         words = " ".join(filter(None, (error.context, error.problem)))
@@ -87,50 +89,39 @@ class _Loader(yaml.SafeLoader):
         self.depth -= 1
         return node
 
-    def number(self, node: yaml.ScalarNode) -> float:
-        """A number that is given in decimals."""
-        with suppress(ValueError):  # Python's limit of digits
-            if IN_DECIMALS[node.tag].fullmatch(node.value):
-                return yaml.SafeLoader.yaml_constructors[node.tag](self, node)
-        raise _refused(
-            f"{shown(node.value)}: is read by YAML as octal, hexadecimal, binary, in sixties, or "
-            "is too long: write a number in decimals, a text in quotes",
-            node.start_mark,
-        )
 
-
-_Loader.yaml_constructors = yaml.SafeLoader.yaml_constructors | dict.fromkeys(
-    IN_DECIMALS, _Loader.number
-)
 _Loader.yaml_implicit_resolvers = {  # without dates: they are texts
     first: [(tag, pattern) for tag, pattern in resolvers if tag != TIMESTAMP]
     for first, resolvers in yaml.SafeLoader.yaml_implicit_resolvers.items()
 }
 
 
-def _lines(root: yaml.Node) -> dict[Keys, int]:
-    """Line of each value, counted as often as aliases repeat it."""
-    lines: dict[Keys, int] = {}
-    for keys, node in _walk(root, ()):
-        lines[keys] = node.start_mark.line + 1
-        _require_small(len(keys), len(lines), node.start_mark)
-    return lines
+def _locate(node: yaml.Node, keys: Keys, lines: dict[Keys, int]) -> None:
+    """Add the lines of a node and of all below it, as often as aliases repeat them.
 
-
-def _walk(node: yaml.Node, keys: Keys) -> Iterator[tuple[Keys, yaml.Node]]:
-    """All nodes below one, with their keys."""
-    yield keys, node
+    Raises
+    ------
+    SettingsError
+        When they are too many or too deep, a key is no name or given twice, or a number is not
+        decimal.
+    """
+    lines[keys] = node.start_mark.line + 1
+    _require_small(len(keys), len(lines), node.start_mark)
+    if node.tag in (INT, FLOAT) and not IN_DECIMALS.fullmatch(node.value):
+        raise _refused(
+            f"{shown(node.value)}: is read by YAML as octal, hexadecimal, binary, in sixties, or "
+            "is too long: write a number in decimals, a text in quotes",
+            node.start_mark,
+        )
     if isinstance(node, yaml.SequenceNode):
         for i, item in enumerate(node.value):
-            yield from _walk(item, (*keys, str(i)))
+            _locate(item, (*keys, str(i)), lines)
     elif isinstance(node, yaml.MappingNode):
-        seen = set()
         for key, value in node.value:
-            name = _name(key)
-            if name in seen:
-                raise _refused(f"is not YAML: key {name!r} is given twice", key.start_mark)
-            seen.add(name)
-            yield from _walk(value, (*keys, name))
+            below = (*keys, _name(key))
+            if below in lines:
+                raise _refused(f"is not YAML: key {below[-1]!r} is given twice", key.start_mark)
+            _locate(value, below, lines)
 
 
 def _name(key: yaml.Node) -> str:
@@ -141,11 +132,10 @@ def _name(key: yaml.Node) -> str:
     SettingsError
         When it is no text, or none for a line of a message.
     """
-    merge = key.tag.endswith(":merge")
-    if not isinstance(key, yaml.ScalarNode) or not (key.tag.endswith(":str") or merge):
+    if key.tag not in OF_KEYS:
         raise _refused(
-            f"key {shown(getattr(key, 'value', key.tag))}: is no name: write a text, in quotes if "
-            "it is a number, yes, no, on or off",
+            f"key {shown(key.value)}: is no name: write a text, in quotes if it is a number, yes, "
+            "no, on or off",
             key.start_mark,
         )
     if not key.value.isprintable() or not 0 < len(key.value) <= LONGEST_KEY:
