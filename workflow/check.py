@@ -44,37 +44,31 @@ DEARER = 4.0  # matrices and modes on that mesh, 2.8 times the nodes
 JOBS = ("mesh", "assemble", "reduce-{}")  # whose times give the cost of another model
 
 
-def twice_the_rods(scene: Scene) -> Scene:
-    """The scene with rods half as wide, as they go with the step."""
-    return scene.but(liner__rods_per_round=2 * scene.liner.rods_per_round + 1)
-
-
 def twice_the_strips(scene: Scene) -> Scene:
     """The scene with strips half as long."""
     return scene.but(liner__strips=2 * scene.liner.m)
 
 
-def twice_the_patches(blade: Blade) -> Blade:
-    """The blade with twice as many patches on its tip."""
-    return blade.but(interface__patches=2 * blade.interface.patches)
-
-
-def finer_mesh(blade: Blade) -> Blade:
-    """The blade with elements smaller by ``FINER``."""
-    return blade.but(mesh__element_size_mm=blade.mesh.element_size_mm / FINER)
-
-
 CHANGES = (
-    Neighbour("half the step, twice the rods", scene=twice_the_rods, steps=2, cost=4.0),
+    Neighbour(
+        "half the step, twice the rods",
+        scene=lambda scene: scene.but(liner__rods_per_round=2 * scene.liner.rods_per_round + 1),
+        steps=2,
+        cost=4.0,
+    ),
     Neighbour("twice the strips", scene=twice_the_strips, cost=2.0),
     # a strip's middle meets every other patch where strips do not go with them
     Neighbour(
         "twice the patches and strips",
         scene=lambda scene: scene if scene.liner.m == 1 else twice_the_strips(scene),
-        blade=twice_the_patches,
+        blade=lambda blade: blade.but(interface__patches=2 * blade.interface.patches),
         cost=3.0,
     ),
-    Neighbour("mesh finer by 1.41", blade=finer_mesh, remeshed=True),
+    Neighbour(
+        "mesh finer by 1.41",
+        blade=lambda blade: blade.but(mesh__element_size_mm=blade.mesh.element_size_mm / FINER),
+        remeshed=True,
+    ),
 )
 
 

@@ -23,10 +23,10 @@ from geometry.mesh import ENOUGH, MeshSummary, build_mesh
 from geometry.readers import read_mesh_file
 from geometry.tetrahedra import exterior, patches
 from workflow.figures.style import (
-    BLACK,
     BLUE,
     SINGLE,
     VERMILLION,
+    note,
     save,
     styled,
     subplots,
@@ -51,12 +51,7 @@ class Look(NamedTuple):
     patches: int  # of the interface, as many as the mesh of the tip allows
     summary: MeshSummary
     mesh: FileMesh  # in the blade's frame, m
-    physics: Physics = Physics()
-
-    @property
-    def material(self) -> dict[str, float]:
-        """The one material of a deck, by the keys of a blade's; empty where it has none."""
-        return _material(self.physics, self.source["unit"])
+    material: dict[str, float] | None = None  # the one of a deck, by the keys of a blade's
 
     @property
     def size(self) -> float:
@@ -106,7 +101,7 @@ def look(file: Path, kind: str) -> Look:
         size = COARSE * 1e3 * METRES[unit] * float(np.ptp(points, axis=0).max())
         found = _meshed(file, kind, source, {"element_size_mm": size} if kind == "cad" else None)
         if isinstance(found, Look):
-            return found._replace(physics=physics)
+            return found._replace(material=_material(physics, unit))
         faults.append(found)
     raise faults[0]
 
@@ -219,15 +214,14 @@ def draw(found: Look, path: Path) -> None:
     surface = exterior(found.mesh.cells)[:, :3]
     ends = found.mesh.face_groups
     radius = np.hypot(points[:, 0], points[:, 1])
-    for triangles, colour in ((surface, "0.75"), (ends["root"], BLUE), (ends["tip"], VERMILLION)):
-        side.triplot(points[:, 2], radius, triangles, color=colour, linewidth=0.4)
-    above.triplot(points[:, 2], points[:, 1], ends["tip"], color=VERMILLION, linewidth=0.3)
-    label = {"ha": "center", "textcoords": "offset points", "annotation_clip": False}
+    side.triplot(points[:, 2], radius, surface, color="0.75", linewidth=0.4)
     for end, colour, up in (("root", BLUE, -9), ("tip", VERMILLION, 3)):
+        side.triplot(points[:, 2], radius, ends[end], color=colour, linewidth=0.4)
         x, y, z = points[np.unique(ends[end])].mean(axis=0)
-        side.annotate(end, (z, np.hypot(x, y)), (0, up), color=colour, **label)
+        note(side, (z, np.hypot(x, y)), end, (0, up), ha="center", fontsize=8, color=colour)
+    above.triplot(points[:, 2], points[:, 1], ends["tip"], color=VERMILLION, linewidth=0.3)
     for name, (_, y, z) in zip(("LE", "TE"), _edges(points[np.unique(ends["tip"])]), strict=True):
-        above.annotate(name, (z, y), (0, 4), color=BLACK, **label)
+        note(above, (z, y), name, (0, 4), ha="center", fontsize=8)
     side.set(xlabel="downstream (mm)", ylabel="radius (mm)", title="blade")
     above.set(xlabel="downstream (mm)", ylabel="in rotation (mm)", title="tip, from outside")
     for axes in (side, above):

@@ -163,8 +163,7 @@ COMPUTED = (
     ("growth", f"{KEPT}/scaling.csv", kept),
 )
 SETTINGS = {"blade": Blade, "given": MatricesElsewhere, "scene": Scene}  # block: model of the file
-# kept beside the captions, for the pages
-PICTURES = ("paper/paper-e1/rub-0.345.png",)
+PICTURE = Path("results/paper/paper-e1/rub-0.345.png")  # kept beside the captions, for the pages
 BLOCK = re.compile(
     r"(?P<begin><!-- (?P<name>\w+): [^\n]*-->\n).*?(?P<end><!-- /(?P=name) -->)", re.DOTALL
 )
@@ -208,10 +207,13 @@ def require_blocks(pages: Mapping[str, str]) -> None:
         With a line for each block that is at fault.
     """
     filled = [*SETTINGS, *(name for name, *_ in COMPUTED)]
-    holders: dict[str, list[str]] = {name: [] for name in filled}
-    for page, text in pages.items():
-        for name in re.findall(r"<!-- (\w+): ", text):
-            holders.setdefault(name, []).append(page)
+    begun = [
+        (name, page) for page, text in pages.items() for name in re.findall(r"<!-- (\w+): ", text)
+    ]
+    holders = {
+        name: [page for other, page in begun if other == name]
+        for name in dict.fromkeys([*filled, *(name for name, _ in begun)])
+    }
     whole = {block["name"] for text in pages.values() for block in BLOCK.finditer(text)}
     wrong = {name: _fault(name, on, name in filled, name in whole) for name, on in holders.items()}
     if faults := [f"block {name}: {text}" for name, text in wrong.items() if text]:
@@ -342,15 +344,13 @@ def _default(key: Schema) -> str:
 
 @command
 def main() -> None:
-    """Rewrite the pages that change, and refresh their pictures where they have been drawn."""
+    """Rewrite the pages that change, and refresh their picture where it has been drawn."""
     pages = read_pages()
     for page, text in generated(pages).items():
         if text != pages[page]:
             write_whole(text, page)
-    for name in PICTURES:
-        drawn = Path("results") / name
-        if drawn.exists():
-            shutil.copyfile(drawn, Path("workflow/report") / drawn.name)
+    if PICTURE.exists():
+        shutil.copyfile(PICTURE, Path("workflow/report") / PICTURE.name)
 
 
 if __name__ == "__main__":

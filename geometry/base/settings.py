@@ -185,7 +185,9 @@ def one_of(
         raise ValueError(f"{name}: more than one model has {key}: {', '.join(sorted(twice))}")
     choices = " or ".join(f"{key}: {tag}" + " (the default)" * (tag == default) for tag in tags)
     tag, model = next(pair for pair in zip(tags, models, strict=True) if pair[0] != default)
-    example = f"{name}: {{{', '.join([f'{key}: {tag}', *_required(model, key)])}}}"
+    fields = model.model_fields.items()
+    others = [f"{of}: ..." for of, field in fields if field.is_required() and of != key]
+    example = f"{name}: {{{', '.join([f'{key}: {tag}', *others])}}}"
 
     def chosen(value: Any) -> Any:
         """Settings of the model that ``value`` names; other models are not tried."""
@@ -206,11 +208,6 @@ def one_of(
         return models[tags.index(tag)].model_validate(value | {key: tag})
 
     return BeforeValidator(chosen)
-
-
-def _required(model: type[Settings], but: str) -> list[str]:
-    fields = model.model_fields.items()
-    return [f"{key}: ..." for key, field in fields if field.is_required() and key != but]
 
 
 def _listed(choices: Sequence[str]) -> str:
