@@ -15,7 +15,6 @@ from typing import NamedTuple
 import xarray as xr
 
 from geometry.base import (
-    Say,
     SettingsError,
     UserError,
     command,
@@ -148,11 +147,11 @@ def expected(subject: Subject) -> float:
     return marches + (0.0 if subject.blade.of_points else patches) + mesh
 
 
-def checked(subject: Subject, say: Say) -> Iterator[tuple[str, list[Numbers] | str]]:
+def checked(subject: Subject) -> Iterator[tuple[str, list[Numbers] | str]]:
     """Each change with its numbers at the peaks, or why it is not possible; unchanged first."""
     yield ITSELF.name, subject.at_peaks(ITSELF)
     for other in CHANGES:
-        say(f"{other.name} ...")
+        print(f"{other.name} ...")
         try:
             yield other.name, subject.at_peaks(other)
         except UserError as error:
@@ -222,25 +221,21 @@ def _changed(unchanged: Numbers, result: Numbers, name: str) -> str:
     return markdown.change(result[name] / unchanged[name] - 1)
 
 
-def check(name: str, say: Say = print) -> str:
-    """Check a scene: say its cost and progress; return the table, kept as ``check.md``."""
-    subject, start = Subject.read(name), perf_counter()
-    say(
-        f"{name}: {len(subject.peaks)} speeds, {len(CHANGES)} changes: some "
-        f"{duration(expected(subject))} on one core (Ctrl-C stops it, nothing is lost)"
-    )
-    text = table(subject, dict(checked(subject, say)))
-    write_whole(f"# What scene {name} depends on\n\n{text}\n", subject.folder / "check.md")
-    say(f"{duration(perf_counter() - start)}; {subject.folder}/check.md")
-    return text
-
-
 @command
 def main(arguments: list[str]) -> None:
-    """Run the command line."""
+    """Check a scene: print its cost and progress, and the table, which is kept as ``check.md``."""
     if len(arguments) != 1:
         raise UserError(__doc__)
-    print(check(*arguments))
+    subject, start = Subject.read(*arguments), perf_counter()
+    print(
+        f"{subject.name}: {len(subject.peaks)} speeds, {len(CHANGES)} changes: some "
+        f"{duration(expected(subject))} on one core (Ctrl-C stops it, nothing is lost)"
+    )
+    text = table(subject, dict(checked(subject)))
+    path = subject.folder / "check.md"
+    write_whole(f"# What scene {subject.name} depends on\n\n{text}\n", path)
+    print(f"{duration(perf_counter() - start)}; {path}")
+    print(text)
 
 
 if __name__ == "__main__":

@@ -71,8 +71,8 @@ class Look(NamedTuple):
         )
 
 
-def look(file: Path, kind: str) -> Look:
-    """Find unit, axes, root and tip of a ``file`` of the source ``kind``, cad or mesh_file.
+def look(file: Path, read: StepFile | FileMesh) -> Look:
+    """Find unit, axes, root and tip of a ``file``, which has been ``read``.
 
     The first axes are taken that a compressor's blade can have: its leading edge is upstream and
     ahead, its concave side ahead in rotation.
@@ -80,15 +80,14 @@ def look(file: Path, kind: str) -> Look:
     Raises
     ------
     UserError
-        When the file cannot be read, or no axes fit: the fault of the likeliest ones.
+        When no axes fit: the fault of the likeliest ones.
     """
-    physics = Physics()
-    if kind == "cad":
-        step = StepFile(file)
-        faces, unit = step.faces(), next(iter(step.units), "mm")
+    kind, physics = "mesh_file", Physics()
+    if isinstance(read, StepFile):
+        kind, faces, unit = "cad", read.faces(), next(iter(read.units), "mm")
         points, names = np.concatenate([corners for _, corners in faces]), [n for n, _ in faces]
     else:
-        mesh = read_mesh_file(file).without_unused()
+        mesh = read.without_unused()
         physics, points = mesh.physics, mesh.points
         physics.require_plain()
         faces, names = _pieces(mesh), _groups(mesh)

@@ -100,24 +100,32 @@ def _blade(path: Path, file: str | None, folder: Path) -> str:
         raise SettingsError(
             f"unknown kind of file: allowed {', '.join(filter(None, SOURCES))}", file=file
         )
-    if source and source.resolve().parent != path.parent.resolve():
-        shutil.copy(source, path.parent)
     values = NOT_READ
     if suffix in SHOWN and source:
         values = NOT_READ | _looked_at(source, path.stem)
+    if source and source.resolve().parent != path.parent.resolve():
+        shutil.copy(source, path.parent)
     return _filled(
         f"blade-{SOURCES[suffix]}", name=path.stem, file=source and source.name, **values
     )
 
 
 def _looked_at(source: Path, name: str) -> dict[str, str]:
-    """What a mesh or a STEP file says of a blade, drawn; says why where that is nothing."""
-    from workflow.first_look import draw, look  # slow imports, which other kinds do without
+    """What a mesh or a STEP file says of a blade, drawn; says why where that is nothing.
+
+    Its contents are shown.
+    """
+    from geometry.cad import StepFile  # slow imports, which other kinds do without
+    from geometry.readers import read_mesh_file
+    from workflow.first_look import draw, look
 
     kind = SOURCES[source.suffix.lower()]
+    with about(source):
+        read = StepFile(source) if kind == "cad" else read_mesh_file(source)
+        print(read.described.replace("; ", "\n"))
     try:
         with about(source):
-            found = look(source, kind)
+            found = look(source, read)
     except UserError as error:
         print(f"not read: {error}")
         return {}
@@ -184,21 +192,9 @@ def main(arguments: list[str], folder: Path = Path()) -> None:
     """Run the command line."""
     if not 2 <= len(arguments) <= 3 or arguments[0] not in FOLDERS:
         raise UserError(__doc__)
-    if arguments[0] == "blade" and Path(arguments[-1]).suffix.lower() in SHOWN:
-        _show(folder / arguments[2])
     path = new(*arguments, folder=folder)
     first = "set the lines marked with <--, then: " if "<--" in path.read_text() else ""
     print(f"{path}: {first}{_next(*arguments)}")
-
-
-def _show(file: Path) -> None:
-    """Show the contents of a mesh or a STEP file."""
-    from geometry.cad import StepFile  # slow imports, which other kinds do without
-    from geometry.readers import read_mesh_file
-
-    read = read_mesh_file if SOURCES[file.suffix.lower()] == "mesh_file" else StepFile
-    with about(file):
-        print(read(file).described.replace("; ", "\n"))
 
 
 def _next(kind: str, name: str, about: str = "reference") -> str:

@@ -318,16 +318,3 @@ def test_settings_with_other_values_are_checked_again(coarse_blade, name, value,
     error = refused(SettingsError, coarse_blade.but, **{f"mesh__{name}": -1.0})
     assert (error.file, error.key) == ("blade", f"mesh.{name}")
     assert (error.value, error.allowed) == (value, allowed)
-
-
-def test_a_variant_of_a_blade_is_read_and_refused_as_a_file_is(tmp_path):
-    (tmp_path / "reference.yaml").write_text(REFERENCE)
-    (tmp_path / "variants.yaml").write_text(
-        "fine: {base: reference, mesh: {element_size_mm: 1.75}}\n"
-        "odd: {base: fine, mesh: {element_size: 1}}\n"
-    )
-    fine = Blade.load(tmp_path / "fine.yaml")
-    assert fine == Blade.load(tmp_path / "reference.yaml").but(mesh__element_size_mm=1.75)
-    error = refused(SettingsError, Blade.load, tmp_path / "odd.yaml")
-    assert error.file == f"{tmp_path}/variants.yaml: odd"
-    assert (error.key, error.line) == ("mesh.element_size", 2)

@@ -41,11 +41,6 @@ def test_the_keys_of_a_file_replace_those_of_its_base(read, above, rounds, law, 
     assert found == {key: value for key, value in expected.items() if value is not None}
 
 
-def test_bases_have_bases(read):
-    found = read(below=BELOW, middle="base: below\nrounds: 30", above="base: middle\nlist: []")
-    assert (found["rounds"], found["list"]) == (30, [])
-
-
 @pytest.mark.parametrize(
     ("files", "file", "value"),
     [
@@ -61,7 +56,10 @@ def test_a_missing_base_is_named(read, tmp_path, files, file, value):
 
 
 def test_variants_in_one_file_are_read_as_files_of_their_names(read, tmp_path):
-    """On a file, on one another and below a file; a file of the same name comes first."""
+    """On a file, on one another and below a file; a file of the same name comes first.
+
+    Bases have bases.
+    """
     variants = "one: {base: below, rounds: 30}\ntwo: {base: one, list: []}\nfile: {rounds: 1}"
     found = read(below=BELOW, variants=variants, file="rounds: 5", above="base: two")
     assert (found["rounds"], found["list"]) == (30, [])
@@ -74,10 +72,13 @@ def test_an_empty_variant_is_named(read):
 
 
 def test_names_are_those_of_files_and_variants_whatever_they_hold(tmp_path):
+    """But for those that no path or pattern takes."""
     assert names(tmp_path) == []
-    for name, text in {"b": "no YAML: [", "variants": "c: 3\na: {}"}.items():
+    odd = ("a(b", "{x}", "a+b", "a b", "ü", "a" * 120, "good_1-A")
+    files = {"b": "no YAML: [", "variants": "c: 3\na: {}"} | dict.fromkeys(odd, "x: 1")
+    for name, text in files.items():
         (tmp_path / f"{name}.yaml").write_text(text)
-    assert names(tmp_path) == ["a", "b", "c"]
+    assert names(tmp_path) == ["a", "b", "c", "good_1-A"]
 
 
 @pytest.mark.parametrize(
@@ -96,12 +97,6 @@ def test_bases_below_one_another_are_limited(read, bases, allowed):
         return
     error = refused(SettingsError, read, **files)
     assert (error.key, error.value) == ("base", "b0")
-
-
-def test_files_that_no_path_or_pattern_takes_are_no_names(tmp_path):
-    for name in ("a(b", "{x}", "a+b", "a b", "ü", "a" * 120, "good_1-A"):
-        (tmp_path / f"{name}.yaml").write_text("x: 1")
-    assert names(tmp_path) == ["good_1-A"]
 
 
 class Inner(Settings):

@@ -48,7 +48,7 @@ from geometry.base import MeshError, MeshWarning
 job = types.SimpleNamespace(log=[sys.argv[1]], rule="build_mesh", params={}, wildcards={})
 job.input, job.output = ["geometry/mesh.py", "b.step"], []
 job.params["blade"] = "workflow/blades/b.yaml"
-with stage(job):
+with stage(job) as tell:
 """
 
 
@@ -56,12 +56,13 @@ with stage(job):
 def job(tmp_path):
     """Run the body of a script: exit status, output outside of the log, and the log."""
 
-    def job(body, before=""):
+    def job(body, before="", stderr=subprocess.PIPE):
         script = SCRIPT.replace("with stage", f"{before}with stage") + indent(body, "    ")
         done = subprocess.run(
             [sys.executable, "-c", script, str(tmp_path / "log")],
             env={"PYTHONPATH": f"{ROOT}:{SCRIPTS}"},
-            capture_output=True,
+            stdout=subprocess.PIPE,
+            stderr=stderr,
             text=True,
         )
         assert done.stdout == ""
@@ -146,38 +147,25 @@ tell(WARNING + "some 9 days")
 """
 
 
-def told(tmp_path, terminal):
-    """What a job says outside of its log, on a terminal or not, and its log but for its end."""
-    script = SCRIPT.replace("with stage(job):", "with stage(job) as tell:")
-    leader, follower = os.openpty()
-    outside = follower if terminal else subprocess.PIPE
-    done = subprocess.Popen(
-        [sys.executable, "-c", script + indent(TELLING, "    "), str(tmp_path / "log")],
-        env={"PYTHONPATH": f"{ROOT}:{SCRIPTS}"},
-        stderr=outside,
-    )
-    piped = done.communicate()[1]
-    os.close(follower)
-    said = os.read(leader, 10_000) if terminal else piped
-    os.close(leader)
-    assert done.returncode == 0
-    *lines, used = (tmp_path / "log").read_text().splitlines()
-    assert used.startswith("used 0.")
-    return said.decode(), lines
-
-
 LINES = ["what was meshed", "compiled", "loaded", "speed 1 of 3", "speed 2 of 3", "speed 3 of 3"]
 
 
-def test_a_terminal_shows_a_bar_and_other_lines_at_most_every_few_seconds(tmp_path):
+def test_a_terminal_shows_a_bar_and_other_lines_at_most_every_few_seconds(job):
     """Without a terminal only warnings leave the log."""
     warning = "build_mesh: warning: some 9 days"
-    said, log = told(tmp_path, terminal=True)
-    assert log == [*LINES, "warning: some 9 days"]
+    leader, follower = os.openpty()
+    status, _, log = job(TELLING, stderr=follower)
+    os.close(follower)
+    said = os.read(leader, 10_000).decode()
+    os.close(leader)
+    *lines_of_log, used = log.splitlines()
+    assert status == 0 and used.startswith("used 0.")
+    assert lines_of_log == [*LINES, "warning: some 9 days"]
     shown = [line.strip("\r\n") for line in said.split("\x1b[2K")]
     lines = ["what was meshed", "compiled"]  # loaded comes too soon
     assert shown[0].splitlines() == [f"build_mesh: {line}" for line in lines]
     full = ("#" * 8 + "." * 16, "#" * 16 + "." * 8, "#" * 24)
     bars = [f"build_mesh [{bar}] speed {i} of 3" for i, bar in enumerate(full, 1)]
     assert shown[1:] == [*bars, warning]
-    assert told(tmp_path, terminal=False) == (f"{warning}\n", log)
+    status, outside, log = job(TELLING)
+    assert (status, outside, log.splitlines()[:-1]) == (0, f"{warning}\n", lines_of_log)

@@ -27,8 +27,10 @@ from workflow.figures.response import Response
 from workflow.shapes import motion
 
 SPEEDS = [0.2, 0.3, 0.34, 0.36, 0.38]  # over f1(0)
-PEAK = {"k": 6, "index": 3, "amplitude": 0.5, "at_end": False}  # four have none
-PEAK |= {"name": "EO 6 mode 1", "says": "1.1 times the linear crossing"}
+PEAK = {  # four have none
+    **{"k": 6, "index": 3, "amplitude": 0.5, "at_end": False},
+    **{"name": "EO 6 mode 1", "says": "1.1 times the linear crossing"},
+}
 ORDERS = [*range(1, 17)]
 SOUGHT = {"lines": {}, "modes": 4, "orders": ORDERS, "excited": {}}
 
@@ -226,8 +228,10 @@ PLOTS = {
     "map": 6,
     "spectrum": 1,
     "profile": 1,
+    "polar": 3,
+    "history": 2,
+    "signal": 1,
 }
-PLOTS |= {"polar": 3, "history": 2, "signal": 1}
 RECORDED = PLOTS.keys() - {"campbell"}
 WIDE, NARROW = {"width": 1200, "height": 900}, {"width": 400, "height": 800}
 

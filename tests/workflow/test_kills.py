@@ -56,17 +56,13 @@ def rule_of(script: str) -> str:
 def jobs_of(snakemake: int) -> dict[int, str]:
     """Rule of each running job of a process, by process number."""
     jobs = {}
-    for folder in Path("/proc").iterdir():
-        if folder.name.isdigit():
-            try:
-                command = (folder / "cmdline").read_bytes().decode(errors="replace")
-                session = int((folder / "stat").read_text().rpartition(")")[2].split()[3])
-            except OSError:
-                continue  # it ended
+    for folder in Path("/proc").glob("[0-9]*"):
+        with suppress(OSError):  # it ended
+            command = (folder / "cmdline").read_bytes().decode(errors="replace")
+            session = os.getsid(int(folder.name))
             script = re.search(r"[^\0]*/\.snakemake/scripts/tmp\w+\.job\.py", command)
             if script and session == snakemake and "python" in command.split("\0")[0]:
-                with suppress(OSError):  # it ended
-                    jobs[int(folder.name)] = rule_of(script[0])
+                jobs[int(folder.name)] = rule_of(script[0])
     return jobs
 
 

@@ -141,7 +141,7 @@ def project(tmp_path, monkeypatch):
 
 @pytest.mark.parametrize(
     ("file", "source"),
-    [("a.step", "cad"), ("a.inp", "mesh_file"), ("a.csv", "section_table"), (None, "sections")],
+    [("a.brep", "cad"), ("a.csv", "section_table"), (None, "sections")],
 )
 def test_a_new_blade_is_one_and_has_its_file_beside_it(project, file, source):
     if file:
@@ -211,52 +211,26 @@ def test_what_new_refuses(project, arguments, said):
     assert not (project / "workflow/blades/b.yaml").exists()
 
 
-def test_a_scene_without_a_result_is_not_checked(project, capsys):
-    new.new("blade", "mine")
-    new.new("scene", "rub", "mine")
-    assert check.main(["rub"]) == 2
-    assert "./run snakemake results/mine/rub/sweep.nc" in capsys.readouterr().err
-    assert check.main(["none"]) == 2
+def test_new_says_what_a_mesh_holds_in_its_own_axes_and_writes_it(project, capsys, coarse_mesh):
+    """Axes, in which a blade can be a compressor's, groups, material, patches; left are two lines.
 
-
-def test_new_says_what_a_mesh_holds_in_its_own_axes(project, capsys, coarse_mesh):
+    The engine axis is -x of the file, the radius along -y.
+    """
     points, *others = parts(coarse_mesh.mesh)  # mm
-    turned = points[:, [1, 2, 0]] * [1, 1, -1]
+    turned = points[:, [2, 0, 1]] * [-1, -1, 1]
+    material = "*MATERIAL, NAME=S\n*ELASTIC\n2.1E5, 0.3\n*DENSITY\n7.85E-9\n"
     write_inp(project / "a.inp", turned, *others)
+    with (project / "a.inp").open("a") as file:
+        file.write(material + "*SOLID SECTION, ELSET=EALL, MATERIAL=S\n")
     capsys.readouterr()  # of the reader of the mesh
     assert new.main(["blade", "mine", "a.inp"], project) == 0
     cells, box, axes, groups, *_ = capsys.readouterr().out.splitlines()
     assert cells == f"{len(others[0])} tetrahedra on {len(points)} nodes"
     z = turned[:, 2]
     assert box.endswith(f", z {z.min():.5g} to {z.max():.5g}")
-    assert axes == "radial -z (assumed: farthest from 0)"
+    assert axes == "radial -y (assumed: farthest from 0)"
     assert re.fullmatch(r"groups: NALL .*, ROOT \(\d+ nodes\), TIP \(\d+ nodes\)", groups)
-
-
-def test_new_says_the_unit_and_the_box_of_a_step_file(project, capsys, coarse_blade, coarse_mesh):
-    export(project, coarse_blade, coarse_mesh)
-    capsys.readouterr()  # of the CAD library
-    assert new.main(["blade", "mine", "blade.step"], project) == 0
-    unit, box, axes, _ = capsys.readouterr().out.splitlines()
-    tip = 1e3 * coarse_blade.sections.tip_radius
-    assert unit == "unit mm"
-    # of corners: within the sagitta of the tip's end
-    assert float(re.search(r"box x \S+ to (\S+),", box)[1]) == pytest.approx(tip, rel=1e-3)
-    assert axes.startswith("radial x (assumed")
-
-
-def test_new_writes_what_a_mesh_says(project, capsys, coarse_mesh):
-    """Axes, in which a blade can be a compressor's, groups, material, patches; left are two lines.
-
-    The engine axis is -x of the file, the radius along -y.
-    """
-    points, *others = parts(coarse_mesh.mesh)
-    material = "*MATERIAL, NAME=S\n*ELASTIC\n2.1E5, 0.3\n*DENSITY\n7.85E-9\n"
-    write_inp(project / "a.inp", points[:, [2, 0, 1]] * [-1, -1, 1], *others)
-    with (project / "a.inp").open("a") as file:
-        file.write(material + "*SOLID SECTION, ELSET=EALL, MATERIAL=S\n")
-    assert new.main(["blade", "mine", "a.inp"], project) == 0
-    text = Path("workflow/blades/mine.yaml").read_text()
+    text = _text("mine")
     blade = Blade.load("workflow/blades/mine.yaml")
     assert (blade.source.unit, blade.source.root.group) == ("mm", "ROOT")
     assert blade.source.frame == Frame(downstream="-x", radial="-y")
@@ -271,12 +245,19 @@ def test_new_writes_what_a_mesh_says(project, capsys, coarse_mesh):
     assert summary.mass == pytest.approx(coarse_mesh.summary.mass * 7850 / 4430, rel=1e-6)
 
 
-def test_new_writes_what_a_step_file_says(project, capsys, coarse_blade, coarse_mesh):
+def test_new_says_what_a_step_file_holds_and_writes_it(project, capsys, coarse_blade, coarse_mesh):
     """As it stands: unit, axes, radii and the size of elements are the blade's own."""
     export(project, coarse_blade, coarse_mesh)
+    capsys.readouterr()  # of the CAD library
     assert new.main(["blade", "mine", "blade.step"], project) == 0
-    blade = Blade.load("workflow/blades/mine.yaml")
+    unit, box, axes, _ = capsys.readouterr().out.splitlines()
     sections = coarse_blade.sections
+    assert unit == "unit mm"
+    # of corners: within the sagitta of the tip's end
+    tip = pytest.approx(1e3 * sections.tip_radius, rel=1e-3)
+    assert float(re.search(r"box x \S+ to (\S+),", box)[1]) == tip
+    assert axes.startswith("radial x (assumed")
+    blade = Blade.load("workflow/blades/mine.yaml")
     assert blade.source.frame == Frame() and blade.source.unit == "mm"
     # a hundredth of the span from its ends
     assert blade.source.root.radius_mm == pytest.approx(sections.hub_radius_mm + 1.4, abs=0.1)

@@ -15,7 +15,7 @@ from simulate.sweeps.peak import along_order
 from workflow.figures.annotations import frequencies_over_speed
 from workflow.figures.response import Response
 
-HIGHEST = 2.5  # f / f1(0) of spectra
+HIGHEST = 2.5  # f / f1(0) of spectra, at the slowest speed
 FLOOR = 1e-6  # gaps, least amplitude on a logarithmic scale
 ANGLES, COARSE = 720, 180  # around the casing: of profiles, and of the liner's surface
 DIFFERENCES = {  # of a run from another, by the name in the sweep
@@ -42,7 +42,8 @@ def arrays(response: Response) -> Arrays:
         by_name["liner"] = around(sweep["wear"].values / gap, COARSE)
     if "spectrum" in sweep:
         by_name["along"] = log10(np.stack([along_order(sweep, k) for k in response.orders], axis=1))
-        by_name["spectrum"] = log10(response.spectrum[:, : shown_bins(response)])
+        bins = int(HIGHEST / response.speeds.min() * response.scene.record.spectrum_rounds) + 2
+        by_name["spectrum"] = log10(response.spectrum[:, :bins])
     if "envelope" in sweep:
         by_name["history"] = sweep["envelope"].values / gap
     if "motion" in sweep:
@@ -63,11 +64,6 @@ def around(depth: NDArray[np.float64], angles: int) -> NDArray[np.float64]:
     nu = depth.shape[-1]
     nearest = np.rint(np.arange(angles) * nu / angles).astype(int) % nu
     return depth[..., nearest].astype(float)
-
-
-def shown_bins(response: Response) -> int:
-    """Bins of the spectra up to ``HIGHEST`` at the slowest speed."""
-    return int(HIGHEST / response.speeds.min() * response.scene.record.spectrum_rounds) + 2
 
 
 def facts(
