@@ -1,4 +1,4 @@
-"""Compiled kernels stored on disk for all processes: compiling takes some 20 s.
+"""Compiled kernels stored on disk for all processes: compiling takes some 16 s.
 
 numba's own cache identifies functions passed as arguments, as those of the scheme and the law, by
 their address in memory, and never finds them in another process. Here the key of a kernel is a hash
