@@ -1,4 +1,4 @@
-"""CPU time to compile the march, with a shipped law and with laws that it calls.
+"""CPU time to compile the march, as numba does and with inner functions linked only; laws by calls.
 
 ./run pytest -n 0 tests/benchmarks/test_compile.py
 """

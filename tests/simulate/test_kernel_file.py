@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numba
 import numpy as np
 import pytest
+from numba.core.codegen import JITCodeLibrary
 
 from simulate.contact import kernel_file
 from simulate.contact.compiled import compiled, compiled_kernel
@@ -53,6 +54,16 @@ def tabulated(law, eps):
 @compiled
 def thrice(law, eps):
     return 3.0 * law.k * eps
+
+
+@compiled
+def inner_and_outer(law, eps):
+    return law.k * eps + 1.0
+
+
+@compiled
+def four_times(law, eps):
+    return 4.0 * law.k * eps
 
 
 @compiled_kernel
@@ -153,3 +164,22 @@ def test_a_folder_that_cannot_be_written_costs_nothing_but_time(folder):
     folder.write_text("a file in its place")
     arguments = Law(twice, Spring(3.0)), 5.0
     assert kernel_file.kernel(apply, types_of(*arguments))(*arguments) == 30.0
+
+
+@pytest.mark.parametrize(
+    ("parts", "law", "stress"),
+    [
+        (kernel_file.PRIVATE, inner_and_outer, 16.0),
+        (((JITCodeLibrary, "no such part"),), four_times, 60.0),  # as numba does it
+    ],
+)
+def test_an_inner_function_is_linked_into_its_kernel_alone(monkeypatch, parts, law, stress):
+    """Guards the private parts of numba: without them kernels take twice as long to compile."""
+    monkeypatch.setattr(kernel_file, "PRIVATE", parts)
+    arguments = Law(law, Spring(3.0)), 5.0
+    kernel_file._compiled(apply, types_of(*arguments))
+    (inner,) = law.overloads.values()
+    engine, whole = apply.targetctx.codegen()._engine, all(hasattr(*part) for part in parts)
+    assert whole == (law is inner_and_outer)
+    assert engine.is_symbol_defined(inner.fndesc.llvm_func_name) != whole
+    assert apply(*arguments) == law(*arguments[0][1:], 5.0) == stress
