@@ -13,11 +13,17 @@ At the speed of each peak the run is repeated with its contact force, and beside
 
 The uncertainty of a number is the root of the squares of these changes; that of the amplitude
 includes the rise to the top of the resonance through the three speeds. A peak whose numbers jump
-from model to model has two motions (``errors.bistable``).
+from model to model has two motions.
+
+Where two motions are possible, the last digits of the model choose. Across such a jump the change
+of the numbers stays as the difference of the models is halved; where the numbers are steep alone,
+it is halved with it. Models whose frequencies differ by as much as a resonance is wide, as those of
+coarse meshes do, are no last digits: between them the resonance itself passes the speed.
 """
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from itertools import chain, pairwise
 from math import hypot, inf, isfinite, nan
 from time import perf_counter, process_time
 from typing import Any
@@ -32,7 +38,6 @@ from geometry.tip import EDGES
 from rom.coarser import coarser
 from rom.model import Rom, RomError
 from simulate.errors.beyond_linear import BEYOND, SHARE, SecondOrder
-from simulate.errors.bistable import LAST, change, jump, largest
 from simulate.errors.companion import FINER_TIMES, TIMES, Fineness, companion
 from simulate.errors.model_errors import ModelError
 from simulate.errors.neighbour import CHAOTIC, ONE_MOTION, TWO_MOTIONS, Neighbour
@@ -55,7 +60,11 @@ OF_CONTACT = {  # numbers of a peak by their name in files, and that in ``NUMBER
     **{name: name for name in ("wear", "worn_volume", "opening", "force_peak", "torque")},
     "force": "force_mean",
 }
-CLOSE = (-LAST, 0.0, LAST)
+JUMP_FROM = 0.05  # relative change between two models from which a jump is looked for
+LAST = 3e-3  # relative, of frequencies: the last digits of a model; a usual damping ratio
+HALVINGS = 4  # of their difference: the change of a steep number falls to some sixteenth
+JUMPS = 0.5  # share of the change that is left across a jump
+TELL_APART = ("amplitude", "worn_volume")  # numbers that tell one motion from another
 # of the largest change of a run's numbers: that of one may pass through zero, as where its errors
 # of step and strips cancel
 LEAST_PART = 1 / 3
@@ -276,7 +285,7 @@ def _with_errors(
         return at_peak(case.neighbour(other), peak, through(at, T))
 
     first = numbers_of(ITSELF)
-    parts, sides = peak.parts | {"twin": change(first, numbers_of(TWIN))}, None
+    parts, both = peak.parts | {"twin": change(first, numbers_of(TWIN))}, ()
     along = case.scene.speeds.over_f1 is not None
     for name, error, moves in (
         ("model", model_error.basis, False),
@@ -288,21 +297,21 @@ def _with_errors(
                 for share in (-error, 0.0, error)
             }
             parts[name] = change(first, by_share[error], by_share[-error])
-            sides = sides or _sides(
-                by_share, lambda share, moves=moves: numbers_of(raised(share, moves))
+            both = both or sides(
+                lambda share, moves=moves: numbers_of(raised(share, moves)), by_share
             )
     for name, (other, times, T) in _of_other_fineness(case).items():
         changes = change(first, numbers_of(other, T))
-        least = LEAST_PART * _largest(changes)
+        least = LEAST_PART * largest(changes)
         parts[name] = {number: max(size, least) / times for number, size in changes.items()}
     if peak.k and peak.at_end:
         parts["speeds"] = {"amplitude": inf}
     if stress and at:
         parts["stress"] = mesh_errors(stress, peak.index)
-    chaotic = _largest(parts["twin"]) > SENSITIVE_FROM
+    chaotic = largest(parts["twin"]) > SENSITIVE_FROM
     return replace(
         peak,
-        verdict=CHAOTIC if chaotic else TWO_MOTIONS if sides else ONE_MOTION,
+        verdict=CHAOTIC if chaotic else TWO_MOTIONS if both else ONE_MOTION,
         numbers=first,
         errors={
             name: abs(value)
@@ -310,15 +319,10 @@ def _with_errors(
             for name, value in first.items()
         },
         # of the run that differs most from the first
-        other=max(sides, key=lambda side: _largest(change(first, side))) if sides else {},
+        other=max(both, key=lambda side: largest(change(first, side)), default={}),
         parts=parts,
         runs=peak.runs + len(runs),
     )
-
-
-def _largest(changes: Numbers) -> float:
-    """Largest change of the numbers of the motion; those of stress follow them, some steeply."""
-    return largest({name: size for name, size in changes.items() if name not in OF_STRESS})
 
 
 def _with_second_order(peak: Peak, case: Case, known: SecondOrder, gap: float) -> Peak:
@@ -391,15 +395,67 @@ def _of_other_fineness(
     }
 
 
-def _sides(
-    by_share: dict[float, Numbers], numbers_at: Callable[[float], Numbers]
-) -> list[Numbers] | None:
-    """Numbers on both sides of a jump of those that tell motions apart; None without one.
+def change(one: Numbers, *others: Numbers) -> Numbers:
+    """Relative change of each number, over the larger; inf where one alone has it.
 
-    ``numbers_at``: of the model raised by a share. Models that differ by more than ``LAST`` are not
-    looked between, but those that differ by that.
+    The largest of those to the ``others``.
+
+    >>> change({"amplitude": 1.0, "wear": 2.0}, {"amplitude": 2.0, "wear": 2.0})
+    {'amplitude': 0.5, 'wear': 0.0}
     """
-    if max(by_share) > LAST:
-        by_share = {share: numbers_at(share) if share else by_share[0.0] for share in CLOSE}
-    both = jump(numbers_at, by_share)  # adds the runs in between to ``by_share``
-    return list(by_share.values()) if both else None
+    names = dict.fromkeys(chain(one, *others))
+    return {
+        name: max(_change(one.get(name), other.get(name)) for other in others) for name in names
+    }
+
+
+def _change(a: float | None, b: float | None) -> float:
+    if a == b:
+        return 0.0
+    return inf if a is None or b is None else abs(a - b) / max(abs(a), abs(b))
+
+
+def largest(changes: Numbers) -> float:
+    """Largest change of the numbers of the motion, 0 without any.
+
+    Those of stress follow them, some steeply.
+    """
+    of_motion = (size for name, size in changes.items() if name not in OF_STRESS)
+    return max(of_motion, default=0.0)
+
+
+def sides(at: Callable[[float], Numbers], results: Mapping[float, Numbers]) -> Sequence[Numbers]:
+    """Numbers on both sides of a jump between models; none without one.
+
+    The interval with the larger change is halved, ``HALVINGS`` times. Changes are those of
+    ``TELL_APART``. Models that differ by more than ``LAST`` are not looked between, but those that
+    differ by that.
+
+    Parameters
+    ----------
+    at : numbers of the model that differs by a share
+    results : those at some shares, 0 among them
+
+    >>> step = lambda share: {"amplitude": 1 + (share > 0.001) + share}
+    >>> both = sides(step, {share: step(share) for share in (-1.0, 0.0, 1.0)})
+    >>> sorted({round(of["amplitude"], 1) for of in both})
+    [1.0, 2.0]
+    """
+    found = dict(results)
+    if max(found) > LAST:
+        found = {share: at(share) if share else found[0.0] for share in (-LAST, 0.0, LAST)}
+    low, high = max(pairwise(sorted(found)), key=lambda ends: _across(found, *ends))
+    first = _across(found, low, high)
+    if first < JUMP_FROM:
+        return ()
+    for _ in range(HALVINGS):
+        middle = (low + high) / 2
+        found[middle] = at(middle)
+        halves = (low, middle), (middle, high)
+        low, high = max(halves, key=lambda ends: _across(found, *ends))
+    return () if _across(found, low, high) < JUMPS * min(first, 1.0) else [*found.values()]
+
+
+def _across(results: Mapping[float, Numbers], low: float, high: float) -> float:
+    changes = change(results[low], results[high])
+    return max(changes.get(name, 0.0) for name in TELL_APART)

@@ -7,7 +7,6 @@ import pytest
 from runs import swept
 from scenes import of_steps, scene
 
-from simulate.errors.bistable import change, jump, largest
 from simulate.errors.companion import Fineness
 from simulate.errors.model_errors import ModelError
 from simulate.errors.neighbour import CHAOTIC, ONE_MOTION, TWO_MOTIONS
@@ -17,11 +16,15 @@ from simulate.marching import prepare
 from simulate.sweeps.over_speeds import as_sweep, at_speeds
 from simulate.sweeps.peak import reported
 from simulate.sweeps.peak_results import (
+    LAST,
     asked,
     at_peak,
     case_of,
+    change,
+    largest,
     of_sweep,
     results,
+    sides,
     to_march,
 )
 
@@ -120,18 +123,19 @@ def test_a_jump_within_the_last_digits_is_found_with_a_coarse_mesh(edge, coarse_
 
 
 def test_a_jump_stays_and_a_slope_does_not():
+    """Shares over the last digits of a model."""
     answer = {
-        "step": lambda share: {"amplitude": 1 + (share > 0.3) + share / 10},
-        "slope": lambda share: {"amplitude": np.exp(share)},
+        "step": lambda share: {"amplitude": 1 + (share > 0.3 * LAST) + share / LAST / 10},
+        "slope": lambda share: {"amplitude": np.exp(share / LAST)},
     }
 
-    def jump_of(name, *shares):
-        return jump(answer[name], {share: answer[name](share) for share in shares})
+    def sides_of(name, *shares):
+        return sides(answer[name], {LAST * share: answer[name](LAST * share) for share in shares})
 
-    low, high = jump_of("step", -1.0, 0.0, 1.0)
-    assert [round(of["amplitude"], 1) for of in (low, high)] == [1.0, 2.0]
-    assert jump_of("slope", -1.0, 0.0, 1.0) is None
-    assert jump_of("step", -1.0, 0.0) is None  # below JUMP_FROM
+    tried = sorted(of["amplitude"] for of in sides_of("step", -1.0, 0.0, 1.0))
+    assert tried == pytest.approx([0.9, 1, 1.025, 2.03125, 2.0375, 2.05, 2.1])  # halved four times
+    assert not sides_of("slope", -1.0, 0.0, 1.0)
+    assert not sides_of("step", -1.0, 0.0)  # below JUMP_FROM
 
 
 @pytest.fixture(scope="module")

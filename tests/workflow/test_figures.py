@@ -51,7 +51,6 @@ from simulate.sweeps.peak import Peak, along_order
 from simulate.sweeps.peak_results import asked, ends
 from workflow.figures import (
     campbell,
-    clearance,
     designs,
     haigh,
     loads,
@@ -390,7 +389,7 @@ FIGURES = {
     "fig13-k6": lambda get: coatings.peaks(get("grid"), order=6),
     "fig16": lambda get: spectrograms.draw(*read(spectrograms, get("spectrogram_files"))),
     "modes": lambda get: modes_at_rest.draw(*get("modes")),
-    "gap": lambda get: clearance.gap(get("rest")),
+    "gap": lambda get: loads.gap(get("rest")),
     "haigh": lambda get: haigh.draw(*STRESSES),
     "loads": lambda get: loads.panels(get("two_loads"), F1, "mine"),
     "long times": lambda get: long_times.through_peak(

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.image import AxesImage
 
 from workflow.figures import style
-from workflow.figures.records import NO_LABELS, Labels, Records, labelled, split
+from workflow.figures.lines import NO_LABELS, Labels, Records, labelled, split
 from workflow.markdown import cell as number_in
 
 GREY_WEIGHTS = (0.299, 0.587, 0.114)  # of red, green and blue in the luma (ITU-R BT.601)

@@ -1,17 +1,25 @@
-"""Curves of records over a quantity, in panels."""
+"""Curves of records over a quantity, in panels.
 
-from collections.abc import Sequence
+Records, of which ``cells`` draws, too, are plain values by the name of their column.
+"""
+
+from collections.abc import Mapping, Sequence
 from itertools import cycle
+from numbers import Real
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
+import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogFormatterSciNotation
 
 from workflow.figures import style
-from workflow.figures.records import NO_LABELS, Labels, Records, labelled, split
 
+type Records = pd.DataFrame | Sequence[Mapping[str, Any]]
+type Labels = Mapping[Any, str]  # by column or value
+NO_LABELS: Labels = MappingProxyType({})
 ROW, FOOTER, KEY = 1.9, 0.5, 0.08  # in: a row of panels, the axis below, a line in the legend
 BELOW = -0.3  # of the height of a panel: place of a legend of its own
 # Decades of a logarithmic axis with numbers at some, and at all ticks between powers of ten
@@ -101,3 +109,15 @@ def curves(
         points = these[[x, y]].to_numpy(float)
         if np.isfinite(points).all(axis=1).any():
             axes.plot(*points.T, fmt, color=color, label=labelled(labels, name), **look)
+
+
+def split(records: Records, column: str) -> dict[Any, pd.DataFrame]:
+    """Records by their value of a column, in the order in which these occur; without one by ""."""
+    frame = pd.DataFrame(records)
+    values = frame[column].fillna("") if column else pd.Series("", frame.index)
+    return dict([*frame.groupby(values, sort=False)])
+
+
+def labelled(labels: Labels, name: Any) -> str:
+    """Text for a column or a value: its label, or itself."""
+    return labels.get(name, f"{name:g}" if isinstance(name, Real) else str(name))

@@ -1,4 +1,4 @@
-"""Loads over the speed: normal force, torque, worn volume, and stress, in units of engines."""
+"""Over the speed, in units of engines: force, torque, worn volume and stress; the gap."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
@@ -10,13 +10,16 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from rom.model import Rom
+from simulate.contact.gaps import given_gaps
 from simulate.loads import mean_force, mean_opening, torque, worn_volume
+from simulate.scene import LEADING, TRAILING
+from simulate.signals import gaps_at_ends
 from simulate.sweeps.peak import Peak
 from workflow.figures import style, units
 from workflow.figures.annotations import NO_LINES, operating_lines
 from workflow.figures.response import Response
 
-LOOKS = (  # of scenes, distinct without colour
+LOOKS = (  # of scenes, or of places on the chord, distinct without colour
     {"color": style.BLACK, "linestyle": "-"},
     {"color": style.VERMILLION, "linestyle": "--"},
     {"color": style.BLUE, "linestyle": ":"},
@@ -154,3 +157,19 @@ def _draw(axes: Axes, loads: Loads, name: str, scale: float, number: int) -> Non
             capsize=2,
             label=f"peaks of scene {loads.name}",
         )
+
+
+@style.styled
+def gap(sweep: Response) -> Figure:
+    """Gaps at both places of the chord at which a scene gives them; at rest as dotted lines."""
+    drawn, axes = style.subplots(style.SINGLE, 2.4)
+    gaps_at_rest = given_gaps(sweep.scene.gaps, sweep.rom, [LEADING, TRAILING])
+    places = zip(("1/16", "15/16"), gaps_at_rest, gaps_at_ends(sweep.sweep).T, strict=True)
+    for look, (xi, given, running) in zip(LOOKS, places, strict=False):
+        axes.plot(sweep.speeds, units.MICRO * running, label=rf"$\xi$ = {xi}", **look)
+        axes.axhline(units.MICRO * given, color=look["color"], linestyle=":", linewidth=0.8)
+    axes.set(ylabel="gap (µm)", ylim=(0, None))
+    units.show(axes.xaxis, style.below, *sweep.units["speed"])
+    axes.legend(title="dotted: as given")
+    drawn.suptitle(sweep.names, fontsize=8)
+    return drawn
