@@ -1,9 +1,10 @@
 """Displacement, strain and stress of the whole blade at one time, and their VTK file for ParaView.
 
-From the static deflection and the vibration, prestress included: Eqs. (b), (e). And what strain
-gauges on its surface read: a grid averages over its length the strain e . E e along it, and the
-stress e . sigma e, of the fields averaged at nodes, quadratic on each facet. With `nonlinear`
-prestress E and e are those of the blade at rest, on which gauges are bonded.
+From the static deflection and the vibration, prestress included: Eqs. (b), (e). It is read on the
+airfoil, the part of the blade away from clamp and contact. And what strain gauges on its surface
+read: a grid averages over its length the strain e . E e along it, and the stress e . sigma e, of
+the fields averaged at nodes, quadratic on each facet. With `nonlinear` prestress E and e are those
+of the blade at rest, on which gauges are bonded.
 """
 
 from collections.abc import Iterable, Iterator, Mapping
@@ -27,7 +28,7 @@ from dolfinx.plot import vtk_mesh
 from fem.fatigue import von_mises
 from fem.solid import Solid, green_lagrange, read_solid, small_strain
 from geometry.base import SettingsError, write_whole
-from geometry.blade import Blade
+from geometry.blade import Blade, Stress as Asked
 from geometry.facets import normals, shape_functions
 from geometry.frame import axes
 from geometry.hats import middles
@@ -39,6 +40,7 @@ TWICE = np.where(np.equal(*TENSOR), 1, 2)  # how often a tensor has each of them
 FARTHEST = 1e-3  # m, from the surface to the place that is given for a gauge
 LEAST = 0.2  # part of a direction along the surface: with less the facet decides on the grid
 PLACES = 5  # along a grid, at which the fields are averaged
+ALONG = 31  # places along an edge of a facet, at which distances are taken
 
 
 @dataclass(frozen=True)
@@ -316,6 +318,50 @@ def away(
         if len(end)
     ]
     return ~np.any(near, axis=0) if near else np.ones(len(where), bool)
+
+
+def airfoil(solid: Solid, asked: Asked) -> tuple[NDArray[np.bool_], float]:
+    """Nodes (nodes,) whose stress is read, and their least distance from the clamp, m.
+
+    That of ``asked``; without one the ``thickness`` at a sharp clamp, where the stress has no
+    limit. With a fillet all but the cells that touch the clamp (distance 0), which is its edge.
+    From the tip they are as far as those of ``away``.
+
+    Raises
+    ------
+    SettingsError
+        When there are none.
+    """
+    sharp = asked.root == "sharp"
+    distance = 1e-3 * asked.away_mm if asked.away_mm else thickness(solid) if sharp else 0.0
+    settled = away(solid, distance)
+    if not sharp and not asked.away_mm:
+        settled[solid.V.dofmap.list[cells_of(solid, np.flatnonzero(solid.clamped))]] = False
+    if not settled.any():
+        raise SettingsError(
+            "no node of the mesh is farther from the clamp, and away from the contact",
+            key="stress.away_mm",
+            value=1e3 * distance,
+        )
+    return settled, distance
+
+
+def thickness(solid: Solid) -> float:
+    """Thickness of the blade at its clamp, m: of the largest circle in the clamped face.
+
+    0 where no face is clamped.
+    """
+    cells, points = grid_of(solid)
+    facets = exterior(cells)
+    clamped = solid.clamped[facets]
+    root, beside = clamped.all(axis=1), clamped.any(axis=1) & ~clamped.all(axis=1)
+    if not root.any() or not beside.any():
+        return 0.0
+    one, other = np.meshgrid(*2 * [np.linspace(0, 1, ALONG)])
+    shapes = shape_functions(np.stack([one, other], axis=-1)[one + other <= 1 + 1e-9])
+    inside, near = (shapes @ points[facets[of]] for of in (root, beside))
+    rim = near[clamped[beside] @ shapes.T > 1 - 1e-9]  # places between clamped nodes alone
+    return 2 * float(cKDTree(rim).query(inside.reshape(-1, 3))[0].max())
 
 
 def gauge_rows(

@@ -1,13 +1,23 @@
-"""The node of a body at which a motion leaves least margin, by bounds of its stresses."""
+"""The node of a body at which a motion leaves least margin, by bounds; the stress at one node."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.linalg import norm
 from numpy.typing import NDArray
 
-from fem.fatigue import FIVE, largest_change, mean_and_half, numbers, reserve
+from fem.fatigue import (
+    FIVE,
+    damage,
+    largest_change,
+    mean_and_half,
+    numbers,
+    reserve,
+    uniaxial,
+)
+from geometry.base import known
 from geometry.blade import Fatigue
 
 BLOCK, FEW = 512, 8  # nodes at a time: of bounds, of exact stresses
@@ -83,3 +93,28 @@ def worst(
                     if (first := left.min()) < least:
                         least, best = first, (int(nodes[few[left.argmin()]]), number)
     return best
+
+
+@dataclass(frozen=True)
+class NodeStress:
+    """Stress at a node over the amplitudes of a motion (times, 1 + n): 1, of rotation, then n."""
+
+    sigma: NDArray[np.float64]  # (1 + n, 6), Pa
+    fatigue: Fatigue | None
+
+    def numbers(self, a: NDArray[np.float64]) -> dict[str, float]:
+        """Mean and alternating stress, Pa, and the margin where there is a strength."""
+        of_node = numbers(*cycles(self.sigma[:, None], a), self.fatigue)
+        return {name: float(values[0]) for name, values in of_node.items()}
+
+    def worst(self, revolutions: Iterable[NDArray[np.float64]]) -> dict[str, float]:
+        """The numbers of the worst of revolutions, each by itself."""
+        return min(map(self.numbers, revolutions), key=reserve)
+
+    def order(self, a: NDArray[np.float64]) -> int:
+        """Cycles in a revolution: of the largest line of the stress along its largest change."""
+        return 1 + int(np.abs(np.fft.rfft(uniaxial(a @ self.sigma)))[1:].argmax())
+
+    def damage(self, a: NDArray[np.float64]) -> float:
+        """Miner's damage."""
+        return damage(uniaxial(a @ self.sigma), known(self.fatigue, "fatigue"))

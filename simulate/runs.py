@@ -1,6 +1,5 @@
 """Sweeps and single runs from Python: a sweep with its reduced model, one run, the peaks."""
 
-from collections import Counter
 from dataclasses import dataclass
 from operator import attrgetter
 from pathlib import Path
@@ -40,7 +39,7 @@ class Runs:
 
     def __repr__(self) -> str:
         """Blade, speeds, how the runs ended, and the peaks, a line each."""
-        speeds, ends = RPM * self.speed.values, Counter(self.status.values.tolist())
+        speeds, ends = RPM * self.speed.values, dataset.statuses(self.dataset)
         return "\n".join(
             [
                 f"Runs of blade {printable(self.dataset.attrs['blade'])}: {len(speeds)} speeds, "

@@ -1,7 +1,7 @@
 """Stress of a rub at the nodes of the blade, from a few shapes of its motion, and its margin.
 
 Of each run the revolutions are taken that its sweep keeps, each by itself: the last one, and those
-that strain the blade most. Told is the worst, at the worst node of the airfoil (``fem.airfoil``).
+that strain the blade most. Told is the worst, at the worst node of the airfoil (``fem.fields``).
 """
 
 from collections.abc import Mapping
@@ -16,12 +16,19 @@ import numpy as np
 from numpy.linalg import norm
 from numpy.typing import NDArray
 
-from fem.airfoil import airfoil, thickness
 from fem.fatigue import ENDURED, FIVE, LEAST, largest_change, numbers, reserve
-from fem.fields import around, away, disagreement, dofs_at, grid_of, save_vtu
-from fem.node_stress import NodeStress
+from fem.fields import (
+    airfoil,
+    around,
+    away,
+    disagreement,
+    dofs_at,
+    grid_of,
+    save_vtu,
+    thickness,
+)
 from fem.solid import Solid, read_solid
-from fem.worst_node import cycles, worst
+from fem.worst_node import NodeStress, cycles, worst
 from geometry.base import RPM, ProvenanceError
 from geometry.blade import Blade
 from geometry.frame import to_file

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fem.node_stress import NodeStress
+from fem.worst_node import NodeStress
 from geometry.base import known
 from geometry.blade import Fatigue
 from simulate.errors.observables import Numbers

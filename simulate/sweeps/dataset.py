@@ -470,7 +470,9 @@ def course(run: xr.Dataset) -> Course:
         return {"trend": run["trend"].item()}
     worn = run["worn"].values[: int(run["rounds"])]
     more: Course = {"place": run["place"].item()} if "place" in run else {}
-    if not _goes_on(scene := scene_of(run)):
+    scene = scene_of(run)
+    # of a run that goes on from another it is not known when its casing still changed
+    if not scene.speeds.in_turn and scene.start is None:
         more["rounds"] = run["rounds"].item()
         if run["trend"].item() == GROWING:
             swing = np.diff(run["extremes"].values[: len(worn)], axis=1)[:, 0]
@@ -482,11 +484,6 @@ def course(run: xr.Dataset) -> Course:
         "largest_round": run["largest_round"].item(),
         "wears": float(worn[-ceil(len(worn) / 4) :].mean()),
     }
-
-
-def _goes_on(scene: Scene) -> bool:
-    """Whether runs go on from others: it is not known when their casing still changed."""
-    return scene.speeds.in_turn or scene.start is not None
 
 
 def over_f1(Omega: NDArray[np.float64], rom: Rom) -> NDArray[np.float64]:

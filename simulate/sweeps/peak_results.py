@@ -32,7 +32,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from fem.node_stress import NodeStress
+from fem.worst_node import NodeStress
 from geometry.base import Say, SettingsError, known, progress, silent
 from geometry.tip import EDGES
 from rom.coarser import coarser
@@ -209,7 +209,7 @@ def asked(runs: xr.Dataset, rom: Rom) -> list[Peak]:
     None where nothing moves the blade: without contact and force it is at rest.
     """
     peaks = reported(runs, rom)
-    speeds = runs["speed_over_f1"].values
+    speeds = runs["speed_over_f1"].values  # ascending
     if "displacement" in runs and not runs["displacement"].any():
         return []
     if not peaks:
@@ -221,19 +221,15 @@ def asked(runs: xr.Dataset, rom: Rom) -> list[Peak]:
     return [
         replace(
             peak,
-            spacing=_spacing(speeds, peak.index),
+            spacing=max(  # distance to the further neighbour
+                np.diff(speeds[max(peak.index - 1, 0) : peak.index + 2]).tolist(), default=None
+            ),
             status=str(runs["status"].values[peak.index]),
             lobes=_lobes(runs, peak.index),
             course=course(runs.isel(speed_over_f1=peak.index)),
         )
         for peak in peaks
     ]
-
-
-def _spacing(speeds: np.ndarray, index: int) -> float | None:
-    """Distance to the further neighbour; None without one."""
-    distances = np.abs(np.diff(speeds[max(index - 1, 0) : index + 2]))
-    return float(distances.max()) if len(distances) else None
 
 
 def _response(runs: xr.Dataset) -> np.ndarray:

@@ -42,8 +42,13 @@ def doubts(scene: Scene, rom: Rom) -> dict[str, str]:
     goes_on = scene.start is not None or scene.record.end
     tried = chain(
         _of_motion(scene.speeds.omega(rom.f1).min() / rom.omega1, scene.damping_ratio),
-        _of_gap(float(gaps[1:].max()), rom.span),
-        _of_casing(scene.casing, float(gaps[0]), inf if goes_on else scene.rounds),
+        _of_gaps(
+            scene.casing,
+            float(gaps[0]),
+            float(gaps[1:].max()),
+            rom.span,
+            inf if goes_on else scene.rounds,
+        ),
         _of_tip(scene.contact.profile),
         _of_liner(scene.liner, rom),
     )
@@ -80,21 +85,19 @@ def _of_motion(slowest: float, xi: float) -> list[Implausible]:
     ]
 
 
-def _of_gap(widest: float, span: float) -> list[Implausible]:
+def _of_gaps(
+    casing: Casing, gap: float, widest: float, span: float, rounds: float
+) -> list[Implausible]:
+    """Of the ``widest`` gap, m, and of a casing in units of the ``gap`` at 1/16, m."""
+    amplitudes = [harmonic.amplitude_gaps or 0.0 for harmonic in casing.harmonics or []]
+    ramp = casing.ramp_rounds or 0.0
     return [
         (
             widest > WIDE * span,
             "clearance",
             f"clearance: {1e3 * widest:.3g} mm, {100 * widest / span:.2g} % of the span; usual "
             "are 0.01 to 1 %; is it in mm, or in %? it should be in m, or over the span",
-        )
-    ]
-
-
-def _of_casing(casing: Casing, gap: float, rounds: float) -> list[Implausible]:
-    gaps = [harmonic.amplitude_gaps or 0.0 for harmonic in casing.harmonics or []]
-    ramp = casing.ramp_rounds or 0.0
-    return [
+        ),
         *(
             (
                 amplitude > MANY_GAPS,
@@ -102,7 +105,7 @@ def _of_casing(casing: Casing, gap: float, rounds: float) -> list[Implausible]:
                 f"casing.harmonics: amplitude_gaps: {amplitude:g}: that many gaps, of "
                 f"{1e6 * gap:.3g} um; 150 % of the gap would be 1.5",
             )
-            for amplitude in gaps
+            for amplitude in amplitudes
         ),
         (
             ramp > rounds,

@@ -12,10 +12,9 @@ import ufl
 from dolfinx import fem
 from dolfinx.io.gmsh import model_to_mesh
 
-from fem.airfoil import airfoil, thickness
 from fem.assemble import assemble
 from fem.fatigue import FIVE, von_mises
-from fem.fields import disagreement, dofs_at, linearised
+from fem.fields import airfoil, disagreement, dofs_at, linearised, thickness
 from fem.solid import make_solid, read_solid, small_strain
 from fem.worst_node import cycles, worst
 from geometry.base import SettingsError

@@ -7,9 +7,10 @@ from scenes import scene
 from scipy.signal import find_peaks
 
 from geometry.tip import JUDGED
+from simulate import Runs
 from simulate.signals import lines, maxima, spectrum
 from simulate.sweeps.crossings import crossing
-from simulate.sweeps.peak import reported, rise
+from simulate.sweeps.peak import peak_of, reported, rise
 
 ROUNDS, SAMPLES, GAP, ZETA = 10, 256, 2e-5, 0.002
 TURNS = 2 * np.pi * np.arange(ROUNDS * SAMPLES) / SAMPLES  # Omega t, of the revolutions recorded
@@ -130,15 +131,19 @@ def test_a_casing_table_of_five_bumps_excites_and_couples_multiples_of_five(coar
     assert [k for k, *_ in told(runs, coarse_rom)] == [5]  # EO 10 is a side band of it
 
 
-def test_a_response_at_3_4_omega_is_a_peak_on_no_integer_order(coarse_rom):
-    """Mode 1 meets 3.4 Omega above the model's highest speed: no crossing explains it."""
-    at = 0.38
+@pytest.mark.parametrize(("order", "modes"), [(3.4, ()), (4.8, (1,))])
+def test_a_steady_line_on_no_integer_order_is_the_only_peak(coarse_rom, order, modes):
+    """Mode 1 meets 3.4 Omega above the model's highest speed: no crossing explains it.
+
+    EO 5 has the skirt of 4.8 alone: beside a line twice as strong nothing is on an order.
+    """
+    at = 1.05 * crossing(coarse_rom, order) if modes else 0.38
 
     def signals(speed):
-        return 0.3 * np.cos(2 * TURNS) + resonance(speed, at, 1.5) * np.cos(3.4 * TURNS)
+        return 0.3 * np.cos(2 * TURNS) + resonance(speed, at, 1.5) * np.cos(order * TURNS)
 
     runs = made(signals, around(at))
-    assert told(runs, coarse_rom) == [(3.4, (), JUDGED[0], pytest.approx(at))]
+    assert told(runs, coarse_rom) == [(order, modes, JUDGED[0], pytest.approx(at))]
     assert not runs["free"].any()
 
 
@@ -177,16 +182,6 @@ def test_along_an_order_that_the_casing_drives_a_rub_that_ends_is_a_peak(coarse_
     assert [k for k, *_ in told(made(signals, around(at)), coarse_rom)] == [6]
 
 
-def test_where_a_line_beside_an_order_is_twice_as_strong_nothing_is_on_the_order(coarse_rom):
-    """A steady line at 4.8: EO 5 has its skirt alone."""
-    at = 1.05 * crossing(coarse_rom, 4.8)
-
-    def signals(speed):
-        return 0.3 * np.cos(2 * TURNS) + resonance(speed, at, 1.5) * np.cos(4.8 * TURNS)
-
-    assert [k for k, *_ in told(made(signals, around(at)), coarse_rom)] == [4.8]
-
-
 def test_a_two_lobed_sweep_without_a_response_along_order_7_has_no_peak_of_it(coarse_rom):
     """Marched over the crossing of EO 7 with f1, where the start vibrates freely."""
     from runs import swept
@@ -206,16 +201,10 @@ def test_a_two_lobed_sweep_without_a_response_along_order_7_has_no_peak_of_it(co
     assert raw.max() > 0.02  # gaps: some pass there
 
 
-def test_no_peak(coarse_rom):
-    runs = made(lambda speed: 0.4 * np.cos(2 * TURNS), around(0.3))
-    assert told(runs, coarse_rom) == []
-    assert told(runs.isel(speed_over_f1=[3]), coarse_rom) == []
-
-
-def test_a_sweep_of_one_speed_has_no_peak(coarse_rom):
+def test_no_response_or_a_single_speed_has_no_peak(coarse_rom):
     at = 1.05 * crossing(coarse_rom, 4)
-    runs = made(lambda speed: along(4, resonance(speed, at, 2.0)), [at])
-    assert told(runs, coarse_rom) == []
+    assert told(made(lambda speed: along(4, 0.0), around(0.3)), coarse_rom) == []
+    assert told(made(lambda speed: along(4, 2.0), [at]), coarse_rom) == []
 
 
 def test_a_response_that_no_crossing_explains_is_a_peak_only_if_it_is_the_largest(coarse_rom):
@@ -255,3 +244,101 @@ def test_the_rise_to_the_top_of_a_linear_resonance_is_exact(spacing):
 def test_where_a_motion_falls_the_rise_is_at_most_that_of_its_other_side():
     assert rise(np.array([-1.0, 0, 1]), np.array([0.95, 1, 0.2])) == pytest.approx(0.05)
     assert rise(np.array([-1.0, 0, 1]), np.array([0.9, 1, 1.1])) == pytest.approx(0.1)
+
+
+SPEEDS = np.linspace(0.1, 0.4, 301)
+
+
+TANGENTIAL = {"profile": {"tilt": 0.15}, "tangential": True}
+
+
+def responding(rom, contact=None, **along):
+    """A sweep with resonances, k4=(speed, gaps) ..., along engine orders, 1e-3 gaps elsewhere."""
+    case = scene(rounds=10, record__spectrum_rounds=10, contact=contact or {})
+    gap, spectrum = 2e-5, np.full((len(SPEEDS), 201), 1e-3)
+    for name, (at, gaps) in along.items():
+        spectrum[:, 10 * int(name[1:])] += gaps / (1 + ((SPEEDS - at) / 0.002) ** 2)
+    return xr.Dataset(
+        {"spectrum": (("speed_over_f1", "engine_order"), gap * spectrum)},
+        coords={"speed_over_f1": ("speed_over_f1", SPEEDS)},
+        attrs={"scene": case.model_dump_json(), "gap_m": gap},
+    )
+
+
+def orders_told(rom, speeds=slice(None), **along):
+    """Orders whose peaks are reported, of the sweep or of some of its speeds."""
+    runs = responding(rom, **along).isel(speed_over_f1=speeds)
+    return sorted(peak.k for peak in reported(runs, rom))
+
+
+BELOW = SPEEDS <= 0.3395  # the sweep ends where the response is high
+REPORTED = [  # peaks, and the orders that are reported
+    ({"k4": (0.34, 2.0), "k6": (0.19, 0.5)}, [4, 6]),
+    ({"k4": (0.34, 0.09), "k6": (0.19, 0.5)}, [6]),  # low
+    ({"k4": (0.34, 2.0), "k6": (0.34, 3.0)}, [6]),  # a side band of order 6, which is the largest
+    ({"k4": (0.2, 2.0)}, [4]),  # far from all crossings, and the largest
+    ({"k4": (0.2, 2.0), "k9": (0.2, 3.0)}, [9]),
+    ({"k4": (0.34, 2.0), "speeds": BELOW}, [4]),
+    ({"k4": (0.34, 0.9), "speeds": BELOW}, []),
+]
+
+
+def test_a_peak_along_an_order_has_its_speed_and_height(coarse_rom):
+    runs = responding(coarse_rom, k4=(0.34, 2.0), k6=(0.19, 0.5))
+    peak = peak_of(runs, coarse_rom, 4)
+    assert (peak.k, peak.Omega_c) == (4, pytest.approx(0.34))
+    assert peak.amplitude == pytest.approx(2.001)
+    assert peak.over_crossing == pytest.approx(0.34 / crossing(coarse_rom, 4))
+    assert peak.clear is True and peak.reported and peak.at_end is False  # as JSON takes them
+    assert peak_of(runs.isel(speed_over_f1=BELOW), coarse_rom, 4).at_end
+
+
+@pytest.mark.parametrize(("peaks", "orders"), REPORTED)
+def test_peaks_that_are_low_or_coupled_are_not_reported(coarse_rom, peaks, orders):
+    assert orders_told(coarse_rom, **peaks) == orders
+
+
+def test_a_peak_is_reported_of_any_order_that_scene_or_blade_asks_for(coarse_rom):
+    """The crossing of EO 17 with f1 is below these speeds, and EO 17 is beyond the usual orders."""
+    runs = responding(coarse_rom, k17=(0.14, 2.0)).assign_coords(speed_over_f1=SPEEDS / 2)
+    asking = scene(
+        rounds=10, record__spectrum_rounds=10, peaks={"orders": [17], "within_over_f1": 1e-3}
+    )
+    assert reported(runs, coarse_rom) == []
+    for attrs in ({"scene": asking.model_dump_json()}, {"orders": [17]}, {"orders": 17}):
+        (peak,) = reported(runs.assign_attrs(attrs), coarse_rom)
+        assert peak.k == 17 and peak.Omega_c == pytest.approx(0.07)
+
+
+def test_only_a_tangential_force_may_bring_a_peak_below_the_crossing(coarse_rom):
+    below = 0.95 * crossing(coarse_rom, 4)
+    radial = responding(coarse_rom, k4=(below, 2.0))
+    assert peak_of(radial, coarse_rom, 4).Omega_c > 0.97 * crossing(coarse_rom, 4)
+    softened = responding(coarse_rom, TANGENTIAL, k4=(below, 2.0))
+    assert peak_of(softened, coarse_rom, 4).Omega_c == pytest.approx(below, abs=1e-3)
+
+
+def test_a_failed_run_hides_no_peak(coarse_rom):
+    runs = responding(coarse_rom, k4=(0.34, 2.0))
+    failed = runs.where(runs["speed_over_f1"] != SPEEDS[200])
+    assert peak_of(failed, coarse_rom, 4).Omega_c == pytest.approx(0.34)
+    assert peak_of(runs.where(runs["speed_over_f1"] < 0), coarse_rom, 4) is None
+
+
+def test_runs_are_printed_in_a_few_lines(coarse_rom):
+    """Speeds, how they ended, and the peaks; not the arrays."""
+    runs = responding(coarse_rom, k4=(0.34, 2.0), k6=(0.19, 0.5))
+    status = np.where(SPEEDS < 0.11, "diverged", "ok")
+    rad_s = 2 * np.pi * coarse_rom.f1 * SPEEDS
+    made = runs.assign(status=("speed_over_f1", status), speed=("speed_over_f1", rad_s))
+    heading, ends, checks, *peaks = str(
+        Runs(made.assign_attrs(blade="coarse"), coarse_rom)
+    ).splitlines()
+    rpm = 60 * coarse_rom.f1
+    assert heading == (f"Runs of blade coarse: 301 speeds, {0.1 * rpm:.0f} to {0.4 * rpm:.0f} rpm")
+    assert ends == "diverged: 10, ok: 291"
+    assert checks == "checked at 0 of 301 speeds"
+    six, four = peaks  # speeds ascending
+    assert four.startswith(f"EO 4 mode 1: peak at {0.34 * rpm:.0f} rpm, ")
+    assert four.endswith(" times the linear crossing, 2 gaps")
+    assert six.startswith("EO 6 mode 1: ")

@@ -10,9 +10,10 @@ from rom.speeds import basis_speeds
 from simulate.sweeps.crossings import critical, crossing
 
 TOP = 0.4  # of the made model, over f1(0)
+ORDERS = (1, 2, 3, 4, 5, 8, 9, 10)
 
 
-def crossings_of(rom, modes=3, orders=(3, 4, 5, 8, 9, 10), lines=(("idle", 600.0),)):
+def crossings_of(rom, modes=3, orders=ORDERS, lines=(("idle", 600.0),)):
     """What is found, and its crossings by mode and order."""
     given = {"modes": modes, "orders": orders, "lines": dict(lines), "excited": {}}
     found = critical(rom, given)
@@ -20,12 +21,15 @@ def crossings_of(rom, modes=3, orders=(3, 4, 5, 8, 9, 10), lines=(("idle", 600.0
 
 
 def test_crossings_are_those_of_closed_form_also_above_the_top_speed():
-    """f^2 = f0^2 + B Omega^2 meets k Omega at f0 / sqrt(k^2 - B): extrapolated without an error."""
+    """f^2 = f0^2 + B Omega^2 meets k Omega at f0 / sqrt(k^2 - B): extrapolated without an error.
+
+    With B > k^2 never.
+    """
     expected = {
         (mode, k): at
         for mode, f0 in ((1, 1), (2, 4), (3, 4))
-        for k in (3, 4, 5, 8, 9, 10)
-        if (at := f0 / np.sqrt(k**2 - STIFFENING)) <= 1.25 * TOP
+        for k in ORDERS
+        if k**2 > STIFFENING and (at := f0 / np.sqrt(k**2 - STIFFENING)) <= 1.25 * TOP
     }
     found, crossings = crossings_of(made_rom())
     assert {*crossings} == {*expected}
@@ -36,6 +40,9 @@ def test_crossings_are_those_of_closed_form_also_above_the_top_speed():
         assert crossings[of]["what"].startswith("extrapolated") == (at > TOP)
     top = 60 * F1 * TOP
     assert [*found["through"], found["up_to"]] == pytest.approx([top / 2, top, 1.25 * top])
+    met = {(mode, k): crossing(made_rom(), k, mode) for mode in (1, 2, 3) for k in ORDERS}
+    below = {of: at if at <= TOP else np.nan for of, at in expected.items()}
+    assert met == pytest.approx(dict.fromkeys(met, np.nan) | below, rel=1e-8, nan_ok=True)
     within, _ = crossings_of(made_rom(), lines=())  # without operating speeds nothing beyond
     assert (within["through"], within["up_to"]) == ([], pytest.approx(top))
     assert {of["what"] for of in within["crossings"]} == {"crossing"}

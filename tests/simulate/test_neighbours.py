@@ -157,7 +157,7 @@ def test_the_difference_of_runs_that_end_differently_is_infinite():
 def test_only_what_is_recorded_is_compared():
     lean = {"samples_per_round": 64, "wear": False, "history": {"chord": [0.0625]}}
     run = made(scene(record=lean).record, outcome())
-    assert [*differences(run, run)] == ["history"]
+    assert [*differences(run, run)] == [*observables(run)] == ["history"]
     nothing = {"samples_per_round": 64, "wear": False}
     assert refused(SettingsError, scene, twin=True, record=nothing).key == "twin"
 
@@ -246,11 +246,6 @@ def beside(coarse_rom, monkeypatch):
         return found
 
     return decided
-
-
-def test_only_what_is_recorded_counts():
-    lean = {"samples_per_round": 64, "wear": False, "contact_force": True}
-    assert [*observables(made(scene(record=lean).record, outcome()))] == ["force_peak"]
 
 
 def of_order(order, error):

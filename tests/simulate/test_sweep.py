@@ -1,4 +1,4 @@
-"""Speeds added around responses that stand out, without orders: until they are known."""
+"""Speeds added around the peaks that a scene asks for; without orders until they are known."""
 
 import numpy as np
 import pytest
@@ -10,9 +10,9 @@ from simulate.scene import Peaks
 from simulate.sweeps.cost import cost
 from simulate.sweeps.crossings import crossing
 from simulate.sweeps.over_speeds import as_sweep, at_speeds
-from simulate.sweeps.peak import Responses, along_order, only_at, reported, rise
+from simulate.sweeps.peak import Responses, along_order, only_at, peak_of, reported, rise
 from simulate.sweeps.peak_results import results
-from simulate.sweeps.sweep import further, sweep
+from simulate.sweeps.sweep import close_in, further, sweep
 
 RUB = {
     "rounds": 8,
@@ -85,6 +85,7 @@ def test_two_runs_halfway_to_the_neighbours_measure_the_amplitude_between_speeds
     """Those of a sweep there; they are no rows of it."""
     case = scene(**RUB)
     runs = swept(case, coarse_rom)
+    assert close_in(case, coarse_rom, runs) is runs  # without `peaks`
     found = [peak for peak in results(runs, coarse_rom, ModelError(1e-4, None)) if peak.k]
     assert found
     for peak in found:
@@ -104,3 +105,23 @@ def test_no_more_speeds_are_added_than_was_told(coarse_rom):
     runs = sweep(case, coarse_rom, report=said.append)
     assert runs.sizes["speed_over_f1"] == 14
     assert "peaks.most: 3 speeds are added: more may raise peaks" in said
+
+
+ORDERS = {"record__spectrum_rounds": 1, "peaks": {"orders": [4], "within_over_f1": 2e-3}}
+
+
+def test_speeds_are_added_around_the_peak_up_to_the_spacing_asked_for(coarse_rom):
+    speeds = {"first": 0.3, "last": 0.38, "count": 9}
+    case = scene(speeds__over_f1=speeds, **ORDERS)
+    coarse = as_sweep(at_speeds(case, coarse_rom, case.speeds.omega(coarse_rom.f1)))
+    fine = sweep(case, coarse_rom)
+    first, last = (peak_of(found, coarse_rom, 4) for found in (coarse, fine))
+    over_f1 = fine["speed_over_f1"].values
+    beside = np.diff(over_f1[last.index - 1 : last.index + 2])
+    assert beside.max() <= 2e-3 * (1 + 1e-9)
+    assert beside.min() > 1e-3  # no nearer than asked: each halving is needed
+    assert last.amplitude >= first.amplitude
+    assert set(coarse["speed"].values) < set(fine["speed"].values)
+    assert along_order(fine, 4).argmax() == last.index
+    # only around the peak: three halvings of two neighbours
+    assert fine.sizes["speed_over_f1"] <= coarse.sizes["speed_over_f1"] + 6

@@ -1,14 +1,20 @@
-"""The table of figures: rows of the project, files of a figure, and what a plain run delivers."""
+"""The table of figures: its rows, the files of a figure, what a plain run delivers; captions."""
 
 from importlib import import_module
 from inspect import signature
+from math import log10
 from types import SimpleNamespace as Made
 
 import pytest
-from projects import TABLES
+from projects import ROOT, TABLES
 from refused import refused
 
 from geometry.base import SettingsError
+from simulate.errors.neighbours import GAP_CHANGE
+from simulate.marching import SENSITIVE_FROM
+from simulate.scene.casing import COUNTS
+from simulate.signals import LOBE_PROMINENCE
+from simulate.sweeps import peak as peaks
 from workflow.figures import table
 
 ROWS = table.read(*TABLES)
@@ -152,3 +158,35 @@ def test_a_fault_of_the_table_has_its_row_and_key(tmp_path, text, key):
     path = tmp_path / "figures.yaml"
     path.write_text(f"delivered:\n  Wear:\n    worn: {text}\n")
     assert key in [fault.key for fault in refused(SettingsError, table.read, path).faults]
+
+
+TWIN = (f"one part in 10^{-log10(GAP_CHANGE):g}", f"over {100 * SENSITIVE_FROM:g} %")
+CAPTIONS = {
+    "spectra-{scene}": (
+        f"reaches {peaks.LEAST:g} of the gap",
+        f"by {peaks.PROMINENCE:g} of its height",
+        f"at {peaks.LEAST_AT_END:g} gap or more",
+        *TWIN,
+    ),
+    "wear-{scene}": (f"stand out by {LOBE_PROMINENCE:g} of its depth", *TWIN),
+    "fig12": TWIN,
+    "stress-{scene}": TWIN,
+}
+
+
+PAGE = (  # of simulate/README.md
+    f"{100 * COUNTS:g} % of its largest",
+    f"from {peaks.STIFFENED:g} (with a tangential force {peaks.SOFTENED:g}) to {peaks.HIGHEST:g}",
+    f"both cross within {100 * peaks.NEAR:g} %",
+)
+
+
+def test_the_page_has_the_thresholds_of_the_code():
+    page = " ".join((ROOT / "simulate/README.md").read_text().split())
+    assert [words for words in PAGE if words not in page] == []
+
+
+@pytest.mark.parametrize(("name", "said"), CAPTIONS.items())
+def test_captions_have_the_thresholds_of_the_code(name, said):
+    caption = " ".join(ROWS[name].caption.split())
+    assert [words for words in said if words not in caption] == []

@@ -52,7 +52,6 @@ from simulate.sweeps.peak_results import asked, ends
 from workflow.figures import (
     campbell,
     designs,
-    haigh,
     loads,
     modes as modes_at_rest,
     spectra,
@@ -244,6 +243,37 @@ def rest(rom):
     return Response(xr.Dataset(status, coords, attrs_of(scene)), rom)
 
 
+@pytest.fixture(scope="module")
+def strained():
+    """100 µε of EO 4 on -20 µε at the first gauge, half of it of EO 6 at the second; 10 MPa."""
+    rounds, speeds = 2, np.linspace(0.1, 0.4, 7)
+    gauge = {"name": "root", "at": [440, 1.8, 0], "direction": [1, 0, 0]}
+    scene = Scene.load(ROOT / "workflow/scenes/paper-e1.yaml").but(
+        record={"spectrum_rounds": rounds, "gauges": [gauge, gauge | {"name": "tip"}]}
+    )
+    time = 18 + np.arange(1, rounds * SAMPLES + 1) / SAMPLES
+    wave = np.stack([np.cos(8 * np.pi * time), 0.5 * np.cos(12 * np.pi * time)])
+    grown = speeds[:, None, None] / speeds[-1] * wave
+    dims = ("speed_over_f1", "gauge", "gauge_time")
+    runs = xr.Dataset(
+        {
+            "gauge_strain": (dims, 1e-4 * grown),
+            "gauge_stress": (dims, 1e7 * grown),
+            "gauge_strain_static": (dims[:2], np.full((7, 2), -2e-5)),
+            "gauge_stress_static": (dims[:2], np.full((7, 2), 5e6)),
+            "status": ("speed_over_f1", ["ok"] * 7),
+        },
+        {
+            "speed_over_f1": speeds,
+            "speed": ("speed_over_f1", speeds * 2 * np.pi * 100),
+            "gauge": ["root", "tip"],
+            "gauge_time": time,
+        },
+        attrs_of(scene) | {"f1_Hz": 100.0},
+    )
+    return Response(runs, made_rom())
+
+
 def grid_peak(amplitude, Omega_c=0.36, departure=1e-9, status="ok", at_end=False):
     of_peak = {"Omega_c": Omega_c, "over_crossing": Omega_c / 0.3, "amplitude": amplitude}
     return of_peak | {"status": status, "departure": departure, "at_end": at_end}
@@ -382,6 +412,7 @@ FIGURES = {
     "fig10 with twins": lambda get: spectra.over_speeds(get("twinned")),
     "spectra in rpm": lambda get: spectra.over_speeds(get("of_user")),
     "wear in rpm": lambda get: wear.over_speeds(get("of_user")),
+    "gauge": lambda get: spectra.of_gauge(get("strained")),
     "fig11": lambda get: wear.over_speeds(get("seen")),
     "fig11 with twins": lambda get: wear.over_speeds(get("twinned")),
     "fig12": lambda get: around.profiles([get("seen"), named(get("twinned"), "paper-e10")]),
@@ -390,7 +421,7 @@ FIGURES = {
     "fig16": lambda get: spectrograms.draw(*read(spectrograms, get("spectrogram_files"))),
     "modes": lambda get: modes_at_rest.draw(*get("modes")),
     "gap": lambda get: loads.gap(get("rest")),
-    "haigh": lambda get: haigh.draw(*STRESSES),
+    "haigh": lambda get: stress.haigh(*STRESSES),
     "loads": lambda get: loads.panels(get("two_loads"), F1, "mine"),
     "long times": lambda get: long_times.through_peak(
         *read(long_times, get("long_files"), "through_peak")
@@ -658,6 +689,26 @@ NUMBERS = {  # by figure and what is shown: the numbers that are drawn, and what
         lambda drawn: scale_beside(drawn.axes[1], "over gap"),
         1e-6 / GAP,
     ),
+    ("gauge", "microstrain along the engine order"): (
+        lambda drawn: next(
+            line.get_ydata() for line in drawn.axes[1].lines if line.get_label() == "EO 4"
+        ),
+        100 * np.linspace(0.1, 0.4, 7) / 0.4,
+    ),
+    ("gauge", "what is measured, and its unit, are named"): (
+        lambda drawn: [
+            any(name in axes.get_ylabel() for axes in axes_of)
+            for name, axes_of in (
+                ("(µε)", drawn.axes[1:2]),
+                ("strain, gauge root (µε)", drawn.axes),
+            )
+        ],
+        [True, True],
+    ),
+    ("gauge", "frequencies of the map"): (
+        lambda drawn: drawn.axes[0].get_ylim(),
+        [0, spectra.SHOWN_STRAIN],
+    ),
     ("wear in rpm", "deepest wear in µm"): (
         lambda drawn: at_speeds(drawn.axes[1].lines[0], PEAK_4, SPEEDS[FAILED]),
         [1e6 * GAP * 3, np.nan],
@@ -802,6 +853,28 @@ def test_the_table_of_a_design_has_its_reported_peaks_in_rpm_and_micrometres(des
     assert not any(head.startswith("EO 6") for head in heads)
 
 
+def test_the_table_of_gauges_has_static_and_total_values_of_each_grid(strained):
+    rows = [*csv.DictReader(spectra.gauges_csv(strained.sweep).splitlines())]
+    assert [(row["speed_over_f1"], row["gauge"]) for row in rows[:3]] == [
+        ("0.1", "root"), ("0.1", "tip"), ("0.15", "root"),
+    ]  # fmt: skip
+    last = {name: float(of) for name, of in rows[-2].items() if name not in ("gauge", "status")}
+    assert last == pytest.approx(
+        {
+            "speed_over_f1": 0.4,
+            "speed (rpm)": 2400,
+            "static strain (µε)": -20,
+            "largest strain (µε)": 80,
+            "least strain (µε)": -120,
+            "vibratory strain (µε)": 100,
+            "static stress (MPa)": 5,
+            "largest stress (MPa)": 15,
+            "least stress (MPa)": -5,
+            "vibratory stress (MPa)": 10,
+        }
+    )
+
+
 def test_a_design_that_changes_words_alone_is_drawn_over_its_rows(design_rows):
     drawn = designs.draw(design_rows.drop_vars("liner.law.K"))
     assert drawn.axes[0].lines[0].get_xdata().tolist() == [1, 2, 3] and faults(drawn) == []
@@ -857,6 +930,9 @@ def test_a_run_without_a_valid_result_is_labelled(densities, tmp_path, status):
 
 
 def test_a_sweep_in_the_figures_units(seen):
+    """Moduli in pascals; hand-e1: unit 8 GPa, E = 1, K = 0.45, sigma_Y = 1e-8."""
+    label = r"plastic, $E$ = 8 GPa, $K$ = 3.6 GPa, $\sigma_Y$ = 80 Pa"
+    assert seen.title == f"scene paper-e1, blade reference: {label}"
     np.testing.assert_allclose(seen.spectrum[0, 20], 0.5)
     np.testing.assert_allclose(seen.wear[SPEEDS == PEAK_4][0], 3 * worn(4), atol=1e-12)
     assert [(p.k, p.Omega_c) for p in seen.peaks] == [(6, PEAK_6), (4, PEAK_4)]
@@ -1010,16 +1086,10 @@ def test_the_stress_is_that_of_the_worst_speed_with_the_summarys_number_at_its_p
 
 
 def test_the_least_margin_names_what_it_is_of():
-    heading = haigh.draw(*STRESSES).get_suptitle()
+    heading = stress.haigh(*STRESSES).get_suptitle()
     assert "least margin of 3 of 4 speeds 16.7 at most\nlocal, with the fillet" in heading
     steady = [row for row in STRESSES[0]["speeds"] if row["trend"] == "steady"]
-    assert "16.7\n" in haigh.draw(STRESSES[0] | {"speeds": steady}, STRESSES[1]).get_suptitle()
-
-
-def test_moduli_are_named_in_pascals(seen):
-    """hand-e1: unit 8 GPa, E = 1, K = 0.45, sigma_Y = 1e-8."""
-    label = r"plastic, $E$ = 8 GPa, $K$ = 3.6 GPa, $\sigma_Y$ = 80 Pa"
-    assert seen.title == f"scene paper-e1, blade reference: {label}"
+    assert "16.7\n" in stress.haigh(STRESSES[0] | {"speeds": steady}, STRESSES[1]).get_suptitle()
 
 
 def test_pressure_side_is_the_blades_own():

@@ -7,12 +7,10 @@ from projects import ROOT
 from scenes import RUBBING
 from scipy.spatial import cKDTree
 
-from fem.airfoil import airfoil
 from fem.fatigue import FIVE, damage, margin, numbers, reserve, uniaxial, von_mises
-from fem.fields import TENSOR, fields
-from fem.node_stress import NodeStress
+from fem.fields import TENSOR, airfoil, fields
 from fem.solid import read_solid
-from fem.worst_node import cycles, worst
+from fem.worst_node import NodeStress, cycles, worst
 from geometry.base import ProvenanceError
 from geometry.blade import Fatigue
 from rom.coarser import coarser

@@ -23,12 +23,10 @@ from workflow.figures.response import Response
 
 CASING_ANGLE = r"casing angle $\theta$ (deg)"
 NO_LINES: Mapping[str, Any] = MappingProxyType({"lines": {}})  # no operating speeds
-NO_TEXTS: Mapping[str, str] = MappingProxyType({})
 FOR_LINE = 0.175  # in, height of a line of text in their legend
 OPERATING = ((0, (7, 2, 1.5, 2)), (0, (1.5, 1.5)))  # dashes of design and idle speed
 CROSSINGS_AT, PEAKS_AT = 1.035, 1.15  # of the axes' height
 NO_RESULT, NOT_PREDICTABLE, NO_CONTACT = "/////", "\\\\\\\\\\", "...."  # hatches
-SIZES = {"handlelength": 2.6, "handleheight": 1.3}  # of hatches in a legend
 LINE = 0.026  # of the width of axes over speeds, a line of small type
 POINTS = 161  # speeds of a curve of natural frequencies
 
@@ -75,7 +73,7 @@ def operating_lines(
     axes: Axes,
     f1_Hz: float,
     lines: Mapping[str, float],
-    texts: Mapping[str, str] = NO_TEXTS,
+    texts: Mapping[str, str] = MappingProxyType({}),
 ) -> None:
     """Draw operating speeds (rpm, by name), with a legend below.
 
@@ -160,7 +158,7 @@ def hatch(drawn: Figure, panels: Sequence[Axes], response: Response, observable:
             look = {"edgecolor": style.GREY, "linewidth": 0} | hatched
             handles.append(Patch(label=label, **look))
             _bands(panels, response.speeds, which, **look)
-    drawn.legend(handles=handles, loc="outside lower left", **SIZES)
+    drawn.legend(handles=handles, loc="outside lower left", handlelength=2.6, handleheight=1.3)
 
 
 def _bands(

@@ -27,7 +27,6 @@ SHOWN = 7  # modes, compared by the paper
 PLAIN: Mapping[str, Any] = {"lines": {}, "modes": MODES, "orders": ORDERS, "excited": {}}
 FASTEST = 4  # crossings marked where no casing and no operating speed is known
 HEADROOM = 0.06  # above f1, for the labels of the engine orders
-OURS = {"marker": "s", "color": style.VERMILLION, "markersize": 4.5, "linestyle": "none"}
 BEHIND = {"facecolor": "white", "edgecolor": "none", "pad": 0.6}
 
 
@@ -125,7 +124,13 @@ def _crossings(
         for speed, k in sorted(over_f1, reverse=True)
         if speed <= axes.get_xlim()[1]
     ]
-    axes.plot(*np.reshape(places, (-1, 2)).T, label="crossing and its speed", **OURS)
+    axes.plot(
+        *np.reshape(places, (-1, 2)).T,
+        "s",
+        color=style.VERMILLION,
+        markersize=4.5,
+        label="crossing and its speed",
+    )
     for place in places:
         speed, *_ = unit.number.format(unit.scale * place[0]).split()
         style.note(

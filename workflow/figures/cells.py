@@ -19,7 +19,6 @@ GREY_WEIGHTS = (0.299, 0.587, 0.114)  # of red, green and blue in the luma (ITU-
 DARK = 0.5  # luma of a cell below which its text is white
 LINE, HEADER, FOOTER = 0.19, 0.62, 0.6  # in: a row, the names of columns, the colour bar
 UPRIGHT = 10  # most columns with upright names
-WRITTEN = {"ha": "center", "va": "center", "fontsize": 7}
 
 
 @style.styled
@@ -130,6 +129,8 @@ def matrix(
                 shown,
                 color="white" if dark else style.BLACK,
                 fontweight="bold" if bold and record[bold] else "normal",
-                **WRITTEN,
+                ha="center",
+                va="center",
+                fontsize=7,
             )
     return image

@@ -19,7 +19,6 @@ from workflow.figures import style
 PIXELS = (900, 1100)  # of one blade, before cropping
 UP = (1, 0, 0)  # the radius
 LINE, BAR, NAMES = 0.16, 0.75, 0.4  # in: a line of a title, the colour bar, names above the tip
-BESIDE = {"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.8}  # a mark's text
 MARGIN = 1.5  # height of the picture over the blade's largest dimension
 
 
@@ -156,8 +155,14 @@ def gallery(
             pixel = pixels(grid, view, point[None])[0] - (seen[1].start, seen[0].start)
             axes.plot(*pixel, "o", color=style.BLACK, markerfacecolor="none", markersize=5)
             inwards = -1 if pixel[0] > across / 2 else 1
-            look = {"ha": "left" if inwards > 0 else "right", "bbox": BESIDE}
-            style.note(axes, tuple(pixel), name, (5 * inwards, 5), **look)
+            style.note(
+                axes,
+                tuple(pixel),
+                name,
+                (5 * inwards, 5),
+                ha="left" if inwards > 0 else "right",
+                bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.8},
+            )
     mappable = ScalarMappable(Normalize(*limits), colours)
     drawn.colorbar(mappable, ax=list(panels), location="bottom", **bar)
     drawn.suptitle(heading, fontsize=8, linespacing=1.3)

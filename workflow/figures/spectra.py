@@ -42,7 +42,6 @@ LOOKS = (  # of the engine orders drawn as amplitudes over all speeds
     ((0, (1, 1)), style.BLUE),
     (":", style.GREY),
 )
-OTHERS = {"color": style.GREY, "linewidth": 0.8}  # further engine orders with a peak
 ROOM = 0.09  # of the width of the map, for the name of an engine order above it
 NEAR = 0.07  # of the critical speed, to both sides: where these are drawn
 SHADE = 0.25  # opacity of marks
@@ -179,7 +178,9 @@ def _others(axes: Axes, response: Response, curves: Mapping[int, Any]) -> None:
         if peak.k not in curves:
             near = abs(response.speeds - peak.Omega_c) <= NEAR * peak.Omega_c
             along = response.units["length"][0].scale * response.along(peak)
-            axes.plot(response.speeds[near], along[near], label=label, **OTHERS)
+            axes.plot(
+                response.speeds[near], along[near], color=style.GREY, linewidth=0.8, label=label
+            )
             label = None
 
 

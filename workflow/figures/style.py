@@ -30,7 +30,6 @@ WORN = "worn depth of leading eighth"  # of the chord, mean over it
 BLACK, GREY = "#000000", "#808080"
 BLUE, VERMILLION, GREEN = "#0072B2", "#D55E00", "#009E73"
 ARROW = {"arrowstyle": "-|>", "linewidth": 1.0, "color": BLACK, "shrinkA": 0, "shrinkB": 0}
-MEASURE = {"arrowstyle": "<->", "linewidth": 0.6, "shrinkA": 0, "shrinkB": 0}
 # The darker the larger, also in grey; white below the scale and where there is no number.
 MAP = mpl.colormaps["magma_r"].with_extremes(under="white", bad="white")
 NO_RUN = "0.88"  # of maps over speeds, between and beyond these
@@ -211,7 +210,12 @@ def measure(
     **look: Any,
 ) -> None:
     """Draw a double arrow, and small ``name`` at an ``offset`` (points of type) from its middle."""
-    axes.annotate("", begin, end, arrowprops=MEASURE)
+    axes.annotate(
+        "",
+        begin,
+        end,
+        arrowprops={"arrowstyle": "<->", "linewidth": 0.6, "shrinkA": 0, "shrinkB": 0},
+    )
     note(axes, tuple(np.mean([begin, end], axis=0)), name, offset, **look)
 
 
