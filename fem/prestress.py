@@ -43,8 +43,7 @@ def nonlinear_states(
     EquilibriumError
         When Newton does not converge, or converges to an equilibrium that is not stable.
     """
-    path = _Equilibria(solid, cholesky)
-    return map(path.state, speeds)
+    return map(_Equilibria(solid, cholesky).state, speeds)
 
 
 class _Equilibria:

@@ -17,6 +17,7 @@ from rom.model import Rom
 from simulate.contact.places import volume_of
 from simulate.marching import Outcome
 from simulate.scene import Scene
+from simulate.signals import filled
 
 FULL_TURN = 2 * np.pi
 
@@ -37,17 +38,11 @@ def torque_of_rounds(scene: Scene, rom: Rom, outcome: Outcome) -> NDArray[np.flo
 
     With a tangential force or friction the forces must have been recorded.
     """
-
-    def whole(computed: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Those of all revolutions that the scene may take."""
-        return np.concatenate([computed, np.full(scene.rounds - len(computed), np.nan)])
-
+    computed = torque(outcome.casing_work), tangential_moment(outcome.force_tangential_mean, rom)
+    of_work, moment = (filled(values, scene.rounds) for values in computed)
     if scene.contact.tangential:
-        return whole(tangential_moment(outcome.force_tangential_mean, rom))
-    if scene.contact.friction is None:
-        return whole(torque(outcome.casing_work))
-    moment = tangential_moment(outcome.force_tangential_mean, rom)
-    return whole(torque(outcome.casing_work)) + whole(moment)
+        return moment
+    return of_work if scene.contact.friction is None else of_work + moment
 
 
 def tangential_moment(on_shares: NDArray[np.float64], rom: Rom) -> NDArray[np.float64]:

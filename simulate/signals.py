@@ -1,4 +1,4 @@
-"""Signals of a run: spectra, amplitudes along engine orders, worn lobes."""
+"""Signals of a run: spectra, amplitudes along engine orders, worn lobes; whole records."""
 
 from typing import NamedTuple
 
@@ -116,6 +116,16 @@ def amplitude(
     if off := abs(k - round(k)):
         width = min(HALF_ORDER, off - (RESOLVED - 0.5) / rounds)
     return spectra[..., np.abs(orders - k) <= width].max(axis=-1)
+
+
+def filled(values: NDArray[np.float64], rows: int, at_end: bool = False) -> NDArray[np.float64]:
+    """The ``values`` (n, ...) with nan for the rows of revolutions that were not computed.
+
+    These follow; or come before, where the values are ``at_end``.
+    """
+    whole = np.full((rows, *values.shape[1:]), np.nan)
+    whole[rows - len(values) if at_end else 0 :][: len(values)] = values
+    return whole
 
 
 def leading_gap(sweep: xr.Dataset) -> float:

@@ -44,7 +44,7 @@ from simulate.marching.trend import further
 from simulate.scene import GROWING, LEADING, OF_LAST_ROUNDS, Scene
 from simulate.scene.laws.table import Tabulated
 from simulate.scene.own_laws import of_result
-from simulate.signals import Lines, lines
+from simulate.signals import Lines, filled, lines
 from simulate.sweeps.result_types import Course
 
 type Entry = tuple[str | tuple[str, ...], Any, dict[str, Any]]
@@ -453,8 +453,7 @@ def final_state_of(run: xr.Dataset) -> FinalState:
         field.name: run[f"{END}{field.name}"].values for field in fields(FinalState)
     }
     window = np.isfinite(values["part"]).all(axis=0)
-    values |= {name: values[name][:, window] for name in ("part", "stored")}
-    values |= {
+    values |= {name: values[name][:, window] for name in ("part", "stored")} | {
         "Omega": float(values["Omega"]),
         "h": float(values["h"]),
         "rounds": int(values["rounds"]),
@@ -523,8 +522,8 @@ def _of_march(run: Run) -> dict[str, Any]:
         "time_constant": outcome.time_constant,
         "displacement": largest,
         "largest_round": number,
-        "extremes": _filled(outcome.each.extremes, rounds).astype(np.float32),
-        "worn": _filled(outcome.each.worn, rounds),
+        "extremes": filled(outcome.each.extremes, rounds).astype(np.float32),
+        "worn": filled(outcome.each.worn, rounds),
         "round": np.arange(1, rounds + 1),
         "bound": ["least", "largest"],
     }
@@ -587,20 +586,10 @@ def _last(scene: Scene) -> int:
     return 0 if scene.until else scene.rounds
 
 
-def _filled(values: NDArray[np.float64], rows: int, at_end: bool = False) -> NDArray[np.float64]:
-    """The ``values`` (n, ...) with nan for the rows of revolutions that were not computed.
-
-    These follow; or come before, where the values are ``at_end``.
-    """
-    whole = np.full((rows, *values.shape[1:]), np.nan)
-    whole[rows - len(values) if at_end else 0 :][: len(values)] = values
-    return whole
-
-
 def _of_history(run: Run) -> dict[str, Any]:
     """Displacements at the places of the history."""
     record, samples = run.scene.record, run.scene.record.samples_per_round
-    u_r = _filled(run.outcome.u_r, run.scene.rounds * samples)
+    u_r = filled(run.outcome.u_r, run.scene.rounds * samples)
     time = np.arange(1, len(u_r) + 1) / samples
     return {"history": u_r[:, 1:].T, "chord": record.chord, "history_time": time}
 
@@ -609,7 +598,7 @@ def _of_states(run: Run) -> dict[str, Any]:
     """States of the last revolutions, and their displacements over the strips."""
     rounds, samples = run.scene.record.rounds_of_states, run.scene.record.samples_per_round
     return {
-        "states": _filled(run.outcome.states, rounds * samples, at_end=True),
+        "states": filled(run.outcome.states, rounds * samples, at_end=True),
         "P": closing_rows(run.rom, run.scene.casing, run.setup.places.xi),
         "time": _last(run.scene) - rounds + np.arange(1, rounds * samples + 1) / samples,
     }
@@ -646,12 +635,12 @@ def _of_forces(run: Run) -> dict[str, Any]:
     """Forces, and the torque where there is one, in each revolution; nan where not computed."""
     scene, outcome = run.scene, run.outcome
     values = {
-        "force_peak": _filled(outcome.force_peak, scene.rounds),
-        "force_mean": _filled(outcome.force_mean, scene.rounds),
+        "force_peak": filled(outcome.force_peak, scene.rounds),
+        "force_mean": filled(outcome.force_mean, scene.rounds),
         "share": (np.arange(SHARES) + 0.5) / SHARES,
     }
     if scene.contact.along:
-        values["force_tangential_mean"] = _filled(outcome.force_tangential_mean, scene.rounds)
+        values["force_tangential_mean"] = filled(outcome.force_tangential_mean, scene.rounds)
     if not scene.no_torque:
         values["torque"] = torque_of_rounds(scene, run.rom, outcome)
     return values
@@ -661,7 +650,7 @@ def _of_gauges(run: Run) -> dict[str, Any]:
     """Strain and stress along gauges: of the vibration over time, and of rotation."""
     rounds, samples = run.scene.record.rounds_of_spectrum, run.scene.record.samples_per_round
     times = rounds * samples // (2 - samples % 2)
-    read = _filled(run.outcome.gauges, times, at_end=True)
+    read = filled(run.outcome.gauges, times, at_end=True)
     strain, stress = np.split(read.T.astype(np.float32), 2)
     static = evaluate(run.rom.gauge_rows, run.setup.Omega)[..., 0]
     return {
@@ -680,7 +669,7 @@ def _of_motion(run: Run) -> dict[str, Any]:
     mode = known(scene.record.motion, "motion")
     step = every(mode, samples, run.setup.omega, run.setup.Omega)
     edges = np.rint(np.arange(WINDOWS * scene.rounds) * samples / WINDOWS).astype(int)
-    u_r = _filled(outcome.u_r[:, 0], scene.rounds * samples)
+    u_r = filled(outcome.u_r[:, 0], scene.rounds * samples)
     bounds = [bound.reduceat(u_r, edges) for bound in (np.minimum, np.maximum)]
     return {
         "motion": outcome.states[-samples:][step - 1 :: step].astype(np.float32),

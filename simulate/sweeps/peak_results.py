@@ -104,7 +104,10 @@ def results(
                 peak = _with_second_order(peak, case, second_order, runs.attrs["gap_m"])
         peak = replace(peak, seconds=process_time() - begun)
         far = progress.remaining(done, len(peaks), perf_counter() - start_of_all)
-        report(f"{line(peak)}: {peak.runs} runs, {peak.seconds:.2f} s; peak {far}")
+        report(
+            f"{peak.name or 'no peak'} at {peak.Omega_c:.4f} f1(0), {peak.verdict or peak.status}: "
+            f"{peak.runs} runs, {peak.seconds:.2f} s; peak {far}"
+        )
         done_peaks.append(peak)
     return done_peaks
 
@@ -177,11 +180,6 @@ def _lobes(runs: xr.Dataset, index: int) -> int | None:
     run = runs.isel(speed_over_f1=index)
     counted = "wear" in runs and run["status"].item() in WITH_RESULT
     return lobe_count(leading_wear(run)) if counted else None
-
-
-def line(peak: Peak) -> str:
-    """Where the peak is, and the verdict on it."""
-    return f"{peak.name or 'no peak'} at {peak.Omega_c:.4f} f1(0), {peak.verdict or peak.status}"
 
 
 def to_march(runs: xr.Dataset, stress: Mapping[str, Any] | None = None) -> Scene:

@@ -64,12 +64,9 @@ def test_noise_about_a_level_is_steady_and_a_drift_in_it_is_found():
     assert of(2 + noise - 0.018 * J, 100, 5.0) == DYING_OUT
 
 
-def test_while_the_liner_wears_nothing_is_steady():
+def test_wear_few_rounds_and_no_damping_tell_nothing_and_a_blade_at_rest_is_steady():
     assert trend(np.ones(40), np.ones(40), 2.0) == TOO_SHORT
     assert trend(np.ones(40), np.exp(-np.arange(40)), 2.0) == STEADY
-
-
-def test_few_rounds_and_no_damping_tell_nothing_and_a_blade_at_rest_is_steady():
     assert of(np.ones(400), FEWEST - 1, 1.0) == TOO_SHORT
     assert of(1 + 0.3 * np.cos(J), 100, inf) == TOO_SHORT
     assert of(NO_WEAR, 20, inf) == STEADY

@@ -120,20 +120,14 @@ def panels(
             per_mm3 = units.MICRO / CUBIC_MM * loads[0].opening_per_volume
             style.beside(axes, per_mm3, "mean worn depth (µm)")
         if name == "torque":
-            axes.set_title(_unknown(loads), loc="right", fontsize=7)
+            unknown = [f"not known of {of.name}: {of.no_torque}" for of in loads if of.no_torque]
+            axes.set_title("; ".join(unknown), loc="right", fontsize=7)
     for axes in used:
         operating_lines(drawn if axes is used[0] else None, axes, f1, operating["lines"])
     units.show(used[-1].xaxis, style.below, *units.both(False, f1)["speed"])
     style.legend(drawn, "lower left", ncols=2)
     drawn.suptitle(f"blade {blade}", fontsize=8)
     return drawn
-
-
-def _unknown(loads: Sequence[Loads]) -> str:
-    """Of which scenes the model has no torque, and why."""
-    return "; ".join(
-        f"not known of {scene.name}: {scene.no_torque}" for scene in loads if scene.no_torque
-    )
 
 
 def _draw(axes: Axes, loads: Loads, name: str, scale: float, number: int) -> None:

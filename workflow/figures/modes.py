@@ -13,7 +13,6 @@ from workflow.figures import rendering, style
 
 SHOWN = 0.15  # largest displacement in the pictures, over the blade's largest dimension
 MATCH = 1e-6  # distance of equal nodes at most, over the blade's largest dimension
-COLOURS = colormaps["viridis"].resampled(10)  # few enough to read as contours
 TIP = 0.01  # height of the part that counts as the tip, over the blade's height
 LIGHT = (0.6, 0.45)
 VIEW = (0.25, 1.0, -0.35)  # the blade's broad side at an angle
@@ -39,7 +38,7 @@ def draw(mesh: rendering.Mesh, full: FullModel) -> Figure:
     return rendering.gallery(
         blade,
         rows,
-        (COLOURS, (0, 1), LIGHT),
+        (colormaps["viridis"].resampled(10), (0, 1), LIGHT),  # few, to read as contours
         style.DOUBLE,
         {},
         f"blade {full.provenance.blade}, at rest",

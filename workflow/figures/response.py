@@ -21,7 +21,6 @@ from workflow.figures import style, units
 from workflow.markdown import rounded
 
 SYMBOLS = {"sigma_Y": r"\sigma_Y"}  # of parameters whose symbol differs from their name
-PASCAL = EngFormatter("Pa")
 
 
 @dataclass(frozen=True)
@@ -166,7 +165,7 @@ def liner_and_tip(scene: Scene) -> str:
     law, contact = scene.liner.law, scene.contact
     unit = getattr(law, "unit_Pa", None)
     listed = [
-        f"{_symbol(name)} = {PASCAL(rounded(unit * x, 3)) if unit else f'{x:g}'}"
+        f"{_symbol(name)} = {EngFormatter('Pa')(rounded(unit * x, 3)) if unit else f'{x:g}'}"
         for name, x in law.model_dump(exclude={"kind", "unit_MPa"}).items()
         if isinstance(x, int | float)  # no curve, nor what a law of one's own may have
     ]

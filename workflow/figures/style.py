@@ -20,7 +20,6 @@ from geometry.base import whole
 
 SINGLE, DOUBLE = 3.5, 7.0  # in, width of one and of two columns
 SPEED_LABEL = r"rotational speed $\Omega / f_1(0)$"
-RPM_LABEL, HZ_LABEL = "speed (rpm)", "frequency (Hz)"
 FREQUENCY_LABEL = r"frequency $f / f_1(0)$"
 WIDEST = 0.04  # widest cell of a speed in a map, over the last speed
 ROOM = 0.25  # of the width of a sweep, left of it

@@ -96,7 +96,14 @@ class Figures(NamedTuple):
         if "scene" in wildcards:
             scenes = [wildcards["scene"]]
         elif isinstance(scenes, str):
-            scenes = self._with_loads(blade)
+            scenes = [  # sweeps of the blade over several speeds, with a liner
+                name
+                for name, scene in self.delivered.items()
+                if scene.blade == blade
+                and not scene.design
+                and scene.speeds.count > 1
+                and scene.liner.law.touches
+            ]
         if scenes and blade is None:
             scene = self.scenes[scenes[0]]
             return FigureSubject(scene.blade, scenes, scene.directions)
@@ -188,14 +195,3 @@ class Figures(NamedTuple):
                 if not OF_SCENE[need](attrgetter(key)(self.scenes[scene])):
                     file = f"workflow/scenes/{scene}.yaml"
                     yield SettingsError(f"must be {need} for this figure", key=key, file=file)
-
-    def _with_loads(self, blade: str) -> list[str]:
-        """Configured sweeps of a blade over several speeds, with a liner."""
-        return [
-            name
-            for name, scene in self.delivered.items()
-            if scene.blade == blade
-            and not scene.design
-            and scene.speeds.count > 1
-            and scene.liner.law.touches
-        ]

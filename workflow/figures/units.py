@@ -29,9 +29,9 @@ def both(norms: bool, f1_Hz: float, gap_m: float = 1.0) -> dict[str, tuple[Unit,
     pairs = {
         "speed": (
             Unit(1.0, style.SPEED_LABEL, "{:.3f} $f_1(0)$"),
-            Unit(RPM_PER_HZ * f1_Hz, style.RPM_LABEL, "{:.0f} rpm"),
+            Unit(RPM_PER_HZ * f1_Hz, "speed (rpm)", "{:.0f} rpm"),
         ),
-        "frequency": (Unit(1.0, style.FREQUENCY_LABEL), Unit(f1_Hz, style.HZ_LABEL)),
+        "frequency": (Unit(1.0, style.FREQUENCY_LABEL), Unit(f1_Hz, "frequency (Hz)")),
         "length": (Unit(1.0, style.OVER_GAP), Unit(MICRO * gap_m, "(µm)")),
     }
     return pairs if norms else {name: pair[::-1] for name, pair in pairs.items()}
