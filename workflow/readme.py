@@ -147,7 +147,7 @@ COMPUTED = (
     ("bases", f"{KEPT}/bases.csv", kept),
     ("rotor37", "results/experiments/frequencies/table.json", rotor37.prestress_table),
     ("levels", TRADE, trade_table.by_level),
-    ("converges", "results/interface/interface.json", interface.results),
+    ("converges", "results/experiments/interface/table.json", interface.results),
     ("nodes", f"{KEPT}/nodes.csv", kept),
     ("requirements", TRADE, trade_table.requirements),
     ("rounds", TRADE, trade_table.fewer_rounds),

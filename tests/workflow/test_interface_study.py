@@ -1,5 +1,7 @@
 """Study of the interface: changes and their limits, and contact at all nodes of the tip."""
 
+from types import SimpleNamespace
+
 import nodes
 import numpy as np
 import pytest
@@ -12,8 +14,7 @@ from simulate.errors.observables import numbers
 from simulate.errors.run import Case
 from simulate.marching import prepare
 from workflow.experiment.plan import cases
-from workflow.study import interface, interface_models
-from workflow.study.interface import OPERATOR_BARS
+from workflow.study import interface, interface_models, trade
 
 EXPERIMENT = ROOT / "workflow/experiments/interface.yaml"
 STRIPS, NU, RADIUS, LENGTH = 4, 32, 0.5, 0.08  # LENGTH of the tip along the axis, m
@@ -33,76 +34,69 @@ def test_the_worn_volume_is_the_depth_times_the_area_under_the_tip():
     assert found == pytest.approx(expected, rel=1e-7)  # of wear in single precision, as in files
 
 
-def model(blade, patches, compliance, stress=None):
-    kept = dict.fromkeys(("constant", "linear", "ST", "compliance_of_model"), 1e-12)
-    row = {"blade": blade, "patches": patches, "n": 60, "compliance_m_per_N": compliance} | kept
-    return row | ({"stress": stress} if stress else {})
+def row(scene, name, blade="reference", **numbers):
+    return {"scene": scene, "row": name, "blade": blade, "numbers": numbers}
 
 
 @pytest.fixture
 def models():
     """Compliances and stresses with known changes, the largest at the first strip."""
+    within = dict.fromkeys(interface.OPERATOR_BARS, 1e-12) | {"n": 60, "frequencies": 1.2e-5}
     of = {"reference-coarse": 0.99, "reference": 1.0, "reference-fine": 1.004}
     of |= {"rotor37": 1.0, "rotor37-fine": 1.002}
-    told = {
-        ("reference", 16): {"away_Pa": 98e6, "largest_Pa": 200e6},
-        ("reference-fine", 16): {"away_Pa": 100e6, "largest_Pa": 400e6},
-        ("reference", 32): {"away_Pa": 94e6, "largest_Pa": 250e6},
-    }
     rows = [
-        model(blade, n, [1e-6 * factor, 2e-6], told.get((blade, n)))
+        row(blade, "", blade, patches=n, compliance_m_per_N=[1e-6 * factor, 2e-6], **within)
         for blade, factor in of.items()
         for n in (8, 16)
     ]
-    return [*rows, model("reference", 32, [1e-6, 2e-6], told["reference", 32])]
-
-
-def test_compliances_are_compared_from_each_mesh_to_the_next_finer(models):
-    rows = {(r["from"], r["patches"]): r for r in interface.between_meshes(models)}
-    assert len(rows) == 6
-    assert rows["reference", 8]["compliance"] == pytest.approx(1 - 1 / 1.004)
-    assert rows["reference-coarse", 16]["compliance"] == pytest.approx(0.01)
-    assert rows["rotor37", 16]["to"] == "rotor37-fine"
-    bars = {("reference", 8): 0.003, ("rotor37", 16): 0.006, ("reference-coarse", 8): None}
-    assert {of: rows[of]["bar"] for of in bars} == bars  # None: told, not judged
-
-
-def test_stresses_are_compared_with_finer_mesh_and_twice_the_patches(models):
-    mesh, patches = interface.stresses(models)
-    assert (mesh["away"], mesh["anywhere"]) == pytest.approx((0.02, 0.5))
-    assert (patches["away"], patches["anywhere"]) == pytest.approx((4 / 94, 0.2))
-    assert mesh["away_Pa"] == [98e6, 100e6] and patches["bar"] == 0.03
+    at_peak = {"default": (98e6, 2e8), "fine": (100e6, 4e8), "twice": (94e6, 2.5e8)}
+    return rows + [
+        row("peak", name, away_Pa=inside, largest_Pa=anywhere)
+        for name, (inside, anywhere) in at_peak.items()
+    ]
 
 
 def test_the_tables_have_limits_and_mark_changes_above_them(models):
-    """One of each: an error of S, a frequency, compliances, a wear and a stress above its limit."""
-    models[0]["ST"] = 2e-9  # over its bar of 1e-9
+    """One of each: an error of S, a frequency, compliances, a wear and a stress above its limit.
+
+    Compliances are compared from each mesh to the next finer, stresses with those of the default.
+    """
+    models[0]["numbers"]["ST"] = 2e-9  # over its bar of 1e-9
+    models[7]["numbers"]["frequencies"] = 2e-4
     changed = dict.fromkeys(("amplitude", "wear", "volume", "force"), 0.0) | {"wear": 0.02}
     of_scenes = {"calm": changed, "peak": {"Omega_c": 0.0}}
     rows = [
-        {"scene": scene, "row": name, "numbers": {"errors": of}}
-        for scene, of in of_scenes.items()
-        for name in interface.BARS
+        row(scene, name, errors=of) for scene, of in of_scenes.items() for name in interface.BARS
     ]
-    study = {
-        "models": models,
-        "frequencies": {"reference": 1.2e-5, "rotor37": 2e-4},
-        "between_meshes": interface.between_meshes(models),
-        "changes": [*rows, {"scene": "calm", "row": "default", "numbers": {"largest": 3.2e-8}}],
-        "stress": interface.stresses(models),
-    }
-    parts = [part.split("\n\n")[1].splitlines() for part in interface.table(study).split("##")[1:]]
-    missed = [sum("missed" in row for row in part) for part in parts]
+    text = interface.table([*rows, row("calm", "default", largest=3.2e-8)], models)
+    parts = [part.split("\n\n")[1].splitlines() for part in text.split("##")[1:]]
+    missed = [sum("missed" in line for line in part) for part in parts]
     assert missed == [1, 1, 1, 3, 1]  # wear of 2 % is within one of its four limits
+    assert parts[2][2:] == [
+        "| reference-coarse | reference | 8 | 1 % |",  # told, not judged
+        "| reference-coarse | reference | 16 | 1 % |",
+        "| reference | reference-fine | 8 | **0.4 % (<= 0.3 %)** missed |",
+        "| reference | reference-fine | 16 | 0.4 % (<= 0.6 %) |",
+        "| rotor37 | rotor37-fine | 8 | 0.2 % (<= 0.3 %) |",
+        "| rotor37 | rotor37-fine | 16 | 0.2 % (<= 0.6 %) |",
+    ]
     assert parts[3][-1].startswith("| calm | gaps by 1e-10 | 3.2e-08 |")
-    assert "| 0.4 % (<= 0.6 %) |" in parts[2][5] and "**0.4 % (<= 0.3 %)** missed" in parts[2][4]
+    assert parts[4][2:] == [
+        "| fine | 2 % (<= 3 %) | 50 % |",
+        "| twice | **4.3 % (<= 3 %)** missed | 20 % |",
+    ]
 
 
-def test_the_rows_of_the_experiment_are_those_of_the_limits():
+def test_the_rows_of_the_experiments_are_those_of_the_limits():
     found = {case.row: case for case in cases(EXPERIMENT)}
     assert {*interface.BARS, interface.DEFAULT} < {*found}
     assert all(set(of) <= set(interface.SHOWN) for of in interface.BARS.values())
     assert all(found[name].against != name for name in interface.BARS)
+    models = cases(EXPERIMENT.with_name("interface-models.yaml"))
+    of_patches = {(case.scene.blade, case.scene.liner.strips) for case in models}
+    meshes = {mesh for *pair, _ in interface.MESHES for mesh in pair}
+    assert {(mesh, n) for mesh in meshes for n in interface.COMPLIANCE_BARS} < of_patches
+    assert (interface.PEAK, interface.DEFAULT) in {(case.label, case.row) for case in models}
 
 
 def test_the_row_that_others_are_compared_with_has_the_difference_of_its_twin(coarse_rom):
@@ -110,23 +104,26 @@ def test_the_row_that_others_are_compared_with_has_the_difference_of_its_twin(co
     of = of.but(record__spectrum_rounds=1, rounds=2)
     setup = prepare(of, coarse_rom, coarse_rom.omega1 * 0.33)
     run = Case(of, coarse_rom, setup).march()
-    assert 0 < interface.changes(run, None)["largest"] < 1e-3
+    assert 0 < trade.changes(run, None)["largest"] < 1e-3
 
 
+@pytest.mark.parametrize("patches", [4, 8])
 def test_the_interface_of_a_mesh_is_within_the_limits_of_the_study(
-    monkeypatch, coarse_yaml, coarse_files
+    patches, coarse_blade, coarse_files, monkeypatch
 ):
     """u_r = 1 itself is not in the shape functions of so coarse a mesh.
 
     What S errs by it is far less than a patch.
     """
-    monkeypatch.setitem(interface_models.PATCHES, "coarse", (4, 8))
-    rows = interface_models.numbers(coarse_files, coarse_yaml, scene={})
-    assert [row["patches"] for row in rows] == [4, 8]
-    for row in rows:
-        assert row["constant"] < 1e-6 and row["linear"] < 1e-6
-        assert all(row[key] < OPERATOR_BARS[key] for key in ("ST", "compliance_of_model"))
-        assert len(row["compliance_m_per_N"]) == row["patches"] and "stress" not in row
+    check = SimpleNamespace(error=np.array([[3e-5, -4e-5]]))
+    monkeypatch.setattr(interface_models.RomCheck, "load", lambda file: check)
+    files = str(coarse_files.mesh), coarse_files.matrices, "rom-check-r.nc"
+    found = interface_models.of_patches(scene(liner__strips=patches), coarse_blade, *files)
+    assert found["constant"] < 1e-6 and found["linear"] < 1e-6
+    for key in ("ST", "compliance_of_model"):
+        assert found[key] < interface.OPERATOR_BARS[key]
+    assert found["frequencies"] == 4e-5
+    assert len(found["compliance_m_per_N"]) == found["patches"] == patches
 
 
 @pytest.fixture(scope="module")

@@ -114,11 +114,6 @@ def scene_of_stability(wildcards):
     return SCENES["hand-e1"].model_dump(mode="json")
 
 
-def scene_of_interface(wildcards):
-    """The scene at whose peak stresses are compared."""
-    return SCENES["hand-peak"].model_dump(mode="json")
-
-
 def further_files():
     """Files that the claims table includes if all of a group exist, by target and by group."""
 

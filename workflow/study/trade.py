@@ -15,7 +15,14 @@ from fem.matrices import Matrices
 from rom.basis import project
 from rom.model import Rom
 from rom.reconstruct import Basis
-from simulate.errors.observables import Observables, error, numbers, observables
+from simulate.errors.neighbours import TWIN
+from simulate.errors.observables import (
+    Observables,
+    differences,
+    error,
+    numbers,
+    observables,
+)
 from simulate.errors.run import Run
 from simulate.signals import on_rods
 from simulate.sweeps.peak import along_order, peak_of
@@ -63,6 +70,15 @@ def _errors(
         "force": error(run_numbers["force_peak"], reference_numbers["force_peak"]),
         "history": error(one["history"][:first], other["history"][:first]),
     }
+
+
+def changes(single: Run, reference: Marched | None) -> Row:
+    """Errors against the ``reference``; without one the largest difference from the twin."""
+    about = errors(single, reference)
+    if reference is not None:
+        return about
+    twin = single.neighbour(TWIN).march()
+    return about | {"largest": max(differences(single, twin).values())}
 
 
 def amplitude(seen: Observables) -> float:
