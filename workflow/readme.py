@@ -154,7 +154,7 @@ COMPUTED = (
     ("speeds", TRADE, trade_table.fewer_speeds),
     ("stages", f"{KEPT}/stages.csv", kept),
     ("bars", f"{KEPT}/bars.csv", kept),
-    ("limits", "results/figures/stability-map.json", stability.limits),
+    ("limits", "results/experiments/stability/table.json", stability.limits),
     ("extremes", "results/figures/stability-matrix.json", stability.extremes),
     ("sweeps", "results/figures/stability-sweeps.json", stability.sweeps),
     ("cuts", "results/experiments/frequencies/table.json", rotor37.edge_cuts_table),

@@ -95,6 +95,7 @@ def test_an_always_engaged_elastic_liner_fails_where_the_step_map_says(share, st
 @pytest.mark.parametrize("E", [0.5, 20.0])
 def test_runs_fail_at_the_step_predicted_by_the_spectral_radius(coarse_rom, E):
     """Engaged, elastic: predicted and found within 2 %, and the limit allowed is below."""
-    found = always_engaged(scene(), coarse_rom, 2 * np.pi * 0.33 * coarse_rom.f1, E)
+    case = scene(liner__law={"kind": "elastic", "E": E, "unit_MPa": 2000})
+    found = always_engaged(case, set_up(case, coarse_rom, 0.33))
     assert found["failed"] == pytest.approx(found["predicted"], rel=0.02)
     assert 0.8 * found["failed"] < found["limit"] < found["failed"]

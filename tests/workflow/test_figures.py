@@ -34,7 +34,7 @@ from test_long_times import (
     files as long_files,  # noqa: F401
 )
 from test_paper_signals import files as spectrogram_files  # noqa: F401
-from test_stability_studies import ENGAGED
+from test_stability_studies import ENGAGED, INTERMITTENT
 from tidy import faults
 
 from geometry.base import ProvenanceError
@@ -395,9 +395,6 @@ def at_one_side(points):
 
 
 AT_ONE_SIDE = stressed(3133, (1, 1, 1), at_3133=at_one_side, at_5400=at_the_tip)
-SCHEMES = ("central-difference", "piecewise-exact")
-PASSED = {scheme: {"wear": {"0.01": 1e-7, "0.1": None}} for scheme in SCHEMES}
-INTERMITTENT = [{"E": E, "limit": 5e-7} | PASSED for E in (1, 10)]
 FIGURES = {
     "fig02": lambda get: blade_and_patches.draw(*get("blade_files")),
     "fig03": lambda get: marked.crossings(apart(get("rom")), get("check")),
@@ -430,7 +427,7 @@ FIGURES = {
     "sensitivity": lambda get: designs.sensitivity(*read(designs, get("sobol_rows"))),
     "stress": lambda get: stress.draw(*AT_ONE_SIDE),
     "mesh": lambda get: mesh_convergence.draw(get("of_meshes")),
-    "stability": lambda get: stability.draw({"engaged": ENGAGED, "intermittent": INTERMITTENT}),
+    "stability": lambda get: stability.draw([*ENGAGED, *INTERMITTENT]),
     "worst": lambda get: long_times.growth(*read(long_times, get("cases"), "growth")),
 }
 

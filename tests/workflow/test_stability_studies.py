@@ -1,38 +1,47 @@
 """Study of stability: sentences and figure of its results."""
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
-from runs import made
 
-from simulate.errors.observables import observables
-from workflow.study.stability import steps, told as stability
+from workflow.study.stability import told as stability
 
+STEPS = ((4e-6, 0.16), (1e-6, 0.01), (2e-6, 0.04))  # and their errors of wear
 ENGAGED = [
-    {"E": E, "alone": 6e-7, "limit": 5e-7 / E, "predicted": 6e-7 / E, "failed": 6e-7 / E}
+    {
+        "scene": "engaged",
+        "numbers": {"E": E, "limit": 5e-7 / E, "predicted": 6e-7 / E, "failed": 5.4e-7 / E},
+    }
     for E in (1.0, 3.0, 10.0, 30.0)
+]
+INTERMITTENT = [
+    {
+        "scene": f"E = {E}",
+        "settings": {"liner": {"law": {"E": E}}, "integrator": {"scheme": scheme}},
+        "numbers": {"h": h, "limit": 5e-7, "wear": wear},
+    }
+    for E in (1.0, 10.0)
+    for scheme in stability.SCHEMES
+    for h, wear in STEPS
 ]
 
 
-def test_the_peak_amplitude_is_that_of_the_last_rounds_without_the_mean():
-    """Twelve rounds at engine order 4 about a mean, the first two much larger."""
-    record = steps.RECORD
-    rounds = np.arange(steps.ROUNDS * record.samples_per_round) / record.samples_per_round
-    u = np.where(rounds < 2, 50.0, 7.0 + 2.0 * np.cos(2 * np.pi * 4 * rounds))
-    shown = observables(made(record.but(wear=False), SimpleNamespace(u_r=u[:, None])))
-    assert shown["spectrum"].max() == pytest.approx(2.0, rel=1e-12)  # round-off
-
-
 def test_the_sentence_has_the_distance_of_failures_from_prediction_and_limit():
-    found = [row | {"failed": row["failed"] * 0.9} for row in ENGAGED]
-    told = stability.limits({"engaged": found})
+    told = stability.limits([*ENGAGED, *INTERMITTENT])
     assert "E = 1 to 30, 4 always engaged liners: runs fail within 10.0% of" in told
     assert told.endswith("the limit allowed is 7.4% to 7% below.")  # 1 - 5 / (6 * 0.9)
 
 
+def test_each_liner_has_the_steps_of_each_scheme_that_reach_a_level():
+    reference = {"scene": "E = 1", "numbers": {"h": 1e-7, "limit": 5e-7}}
+    found = stability.intermittent([*ENGAGED, reference, *INTERMITTENT])
+    assert [(of["E"], of["limit"]) for of in found] == [(1.0, 5e-7), (10.0, 5e-7)]
+    for scheme in stability.SCHEMES:
+        assert found[1][f"{scheme} wear 0.1"] == pytest.approx(2e-6 * 2.5**0.5)
+        assert found[1][f"{scheme} wear 0.01"] == pytest.approx(1e-6)
+
+
 def test_the_step_that_reaches_a_level_is_interpolated():
-    h, error = np.array([4e-6, 1e-6, 2e-6]), np.array([0.16, 0.01, 0.04])
-    assert steps.passes(h, error, 0.02) == pytest.approx(np.sqrt(2) * 1e-6)
-    assert steps.passes(h, error, 0.2) is None
-    assert steps.passes(h, error, 0.001) is None
+    h, error = np.transpose(STEPS)
+    assert stability.passes(h, error, 0.02) == pytest.approx(np.sqrt(2) * 1e-6)
+    assert stability.passes(h, error, 0.2) is None
+    assert stability.passes(h, error, 0.001) is None

@@ -110,10 +110,6 @@ def source_of_blade(wildcards):
     return blade_source(wildcards).get("source")
 
 
-def scene_of_stability(wildcards):
-    return SCENES["hand-e1"].model_dump(mode="json")
-
-
 def further_files():
     """Files that the claims table includes if all of a group exist, by target and by group."""
 

@@ -1,29 +1,30 @@
 """Map over step and stiffness: steps at which central differences become unstable or inaccurate.
 
+Rows are those of workflow/experiments/stability.yaml.
+
 Engaged: an elastic liner with all strips always in contact. The step map is linear; its spectral
 radius predicts the step that is unstable, the bound of ``marching.stability`` lies below it, and
 runs of the compiled kernel, also with steps that are refused in scenes, give the step that fails.
 
-Intermittent: ``steps``.
+Intermittent: errors of a plastic liner over the step, in both schemes, for which there is no
+theory.
 """
-
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
-from rom.model import Rom
 from simulate.contact.compiled import for_types_of
 from simulate.contact.ramp import smooth
-from simulate.marching import Setup, central_difference, prepare, strip_stiffness
+from simulate.errors.observables import error, observables
+from simulate.errors.run import Run
+from simulate.marching import Setup, central_difference, strip_stiffness
 from simulate.marching.kernel import RUNNING, Recorded, at_start, march_round
 from simulate.marching.modal import padded_rows
 from simulate.scene import Scene
-from workflow.study.stability import steps
+from workflow.experiment.engine import Marched
+from workflow.study.trade import amplitude
 
-MODULI = np.logspace(-2, 3, 11)  # E of the engaged liner, in the scene's unit
-SPEED = 0.33  # over f1(0)
 SAMPLES = 64  # of a run
 STEPS = 200_000  # of a run: growth by 1e-4 per step is detected
 GROWN = 1e3  # times the disturbance
@@ -31,28 +32,24 @@ FORCE = 1.0  # N, on every strip at rest
 DISTURBED = 1e-6  # disturbance over the penetration at rest
 
 
-def numbers(files: Any, scene: dict[str, Any]) -> dict[str, Any]:
-    """Steps (s) over E: limits and failures of engaged runs, errors of intermittent ones.
+def errors(single: Run, reference: Marched | None) -> dict[str, float]:
+    """Step and limit of central differences, s, and relative errors against the ``reference``.
 
-    ``scene``: settings of a scene, marched on the reduced model ``files.rom``.
+    Errors are of the amplitude at xi = 1/16, and of the worn depth of all rods.
     """
-    base, rom = Scene.model_validate(scene), Rom.load(files.rom)
-    case = base, rom, rom.omega1 * SPEED
-    return {
-        "speed_over_f1": SPEED,
-        "engaged": [engaged(*case, E) for E in MODULI],
-        "intermittent": [steps.intermittent(*case, E) for E in steps.MODULI],
+    steps = {"h": single.setup.h, "limit": single.setup.limit}
+    if reference is None:
+        return steps
+    true = reference.single
+    return steps | {
+        "amplitude": error(*(amplitude(observables(run)) for run in (single, true))),
+        "wear": error(single.outcome.wear, true.outcome.wear),
     }
 
 
-def engaged(scene: Scene, rom: Rom, Omega: float, E: float) -> dict[str, float]:
-    """Limit, predicted unstable step and failing step of an always engaged elastic liner, s."""
-    case = scene.but(
-        liner__law={"kind": "elastic", "E": E, "unit_Pa": scene.liner.law.unit_Pa},
-        integrator={"scheme": "central-difference", "fraction_of_limit": 1.0},
-    )
-    setup, xi = prepare(case, rom, Omega), scene.damping_ratio
-    k = strip_stiffness(case.liner, setup.places)
+def engaged(scene: Scene, setup: Setup) -> dict[str, float]:
+    """Limit, predicted unstable step and failing step, s, of an always engaged elastic liner."""
+    xi, k = scene.damping_ratio, strip_stiffness(scene.liner, setup.places)
     alone = 2 / setup.omega.max()  # limit of the free blade
     predicted = brentq(
         lambda h: spectral_radius(h, setup.omega, setup.Phi_b, xi, k) - (1 + 1e-9),
@@ -65,7 +62,7 @@ def engaged(scene: Scene, rom: Rom, Omega: float, E: float) -> dict[str, float]:
         h = np.sqrt(low * high)
         low, high = (low, h) if fails(setup, xi, k, h) else (h, high)
     return {
-        "E": float(E),
+        "E": scene.liner.law.E,
         "alone": alone,
         "limit": setup.limit,
         "predicted": float(predicted),

@@ -4,9 +4,12 @@ from collections.abc import Mapping, Sequence
 from statistics import median
 from typing import Any
 
+import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
+from numpy.typing import NDArray
 
+from workflow.experiment.row import ExperimentRow
 from workflow.figures import lines, units
 
 KINDS = {
@@ -14,7 +17,7 @@ KINDS = {
     "By default, runs in contact checked": "default",
     "With `twin: true` and `halving: true`": "checked",
 }
-ERRORS = {"0.01": "1 %", "0.1": "10 %"}
+ERRORS = {0.01: "1 %", 0.1: "10 %"}
 SCHEMES = {"central-difference": "central differences", "piecewise-exact": "piecewise-exact"}
 ENGAGED = {
     "limit": "limit allowed, any strips engaged",
@@ -23,9 +26,9 @@ ENGAGED = {
 }
 
 
-def limits(study: Mapping[str, Any]) -> str:
+def limits(rows: Sequence[ExperimentRow]) -> str:
     """Agreement of the predicted limit of central differences with failing runs."""
-    rows = study["engaged"]
+    rows = engaged(rows)
     off = max(abs(row["failed"] / row["predicted"] - 1) for row in rows)
     below = [1 - row["limit"] / row["failed"] for row in rows]
     moduli = f"E = {rows[0]['E']:g} to {rows[-1]['E']:g}, {len(rows)} always engaged liners"
@@ -78,7 +81,36 @@ def _listed(whys: Mapping[str, int]) -> str:
     return ", ".join(f"{count} {name}" for name, count in sorted(whys.items()))
 
 
-def draw(study: Mapping[str, Any]) -> Figure:
+def engaged(rows: Sequence[ExperimentRow]) -> list[Mapping[str, float]]:
+    """Numbers of the always engaged elastic liners, among the rows of the map."""
+    return [row["numbers"] for row in rows if row["scene"] == "engaged"]
+
+
+def intermittent(rows: Sequence[ExperimentRow]) -> list[Mapping[str, float | None]]:
+    """For each plastic liner the limit, and the step of each scheme that reaches each error, s."""
+    compared = pd.json_normalize([row for row in rows if "wear" in row["numbers"]])
+    found = []
+    for E, of_liner in compared.groupby("settings.liner.law.E"):
+        liner = {"E": E, "limit": of_liner["numbers.limit"].iloc[0]}
+        for scheme, runs in of_liner.groupby("settings.integrator.scheme"):
+            steps = runs["numbers.h"].to_numpy(), runs["numbers.wear"].to_numpy(float)
+            liner |= {f"{scheme} wear {level}": passes(*steps, level) for level in ERRORS}
+        found.append(liner)
+    return found
+
+
+def passes(h: NDArray[np.float64], error: NDArray[np.float64], level: float) -> float | None:
+    """Step at which the error reaches ``level``, interpolated; None if all or no runs meet it."""
+    order = np.argsort(h)
+    h, error = h[order], error[order]
+    beyond = np.flatnonzero(error > level)
+    if len(beyond) == 0 or beyond[0] == 0:
+        return None
+    around = slice(beyond[0] - 1, beyond[0] + 1)
+    return float(np.exp(np.interp(np.log(level), np.log(error[around]), np.log(h[around]))))
+
+
+def draw(study: list[ExperimentRow]) -> Figure:
     """Left: an always engaged elastic liner. Right: a plastic liner, steps by error of wear."""
     by_error = {
         f"{scheme} wear {error}": f"{name}: error of wear {words}"
@@ -86,14 +118,14 @@ def draw(study: Mapping[str, Any]) -> Figure:
         for error, words in ERRORS.items()
     }
     panels = {
-        "always engaged, elastic": (study["engaged"], ENGAGED),
+        "always engaged, elastic": (engaged(study), ENGAGED),
         "intermittent contact, plastic": (
-            study["intermittent"],
+            intermittent(study),
             {"limit": "limit allowed"} | by_error,
         ),
     }
     shown = pd.concat(
-        pd.json_normalize(rows, sep=" ")
+        pd.DataFrame(rows)
         .rename(columns=names)
         .melt("E", [*names.values()], "of", "step")
         .assign(panel=panel)
