@@ -5,7 +5,6 @@ Every third is in slow tests, all are in nightly ones; least counts are in propo
 """
 
 import re
-from collections import Counter
 from dataclasses import asdict
 from itertools import count, islice
 
@@ -17,12 +16,11 @@ from geometry.hats import middles
 from rom.reduce import reduce
 from simulate.errors.neighbours import EIGHTH, HALF, QUARTER, TWICE
 from workflow.study.stability.cases import (
-    BEFORE,
     FIRST_STRIP_DEG,
+    Case,
     draw,
     draw_changing,
     draw_long,
-    now,
 )
 from workflow.study.stability.matrix import End, Verdict, counts, judge_case
 from workflow.study.stability.told import extremes, sweeps
@@ -32,12 +30,39 @@ JUDGED = [  # every so many of them
     pytest.param(3, marks=pytest.mark.slow, id="every third"),
     pytest.param(1, marks=pytest.mark.nightly, id="all"),
 ]
-NOW = now(8)  # patches of the coarse blade
+PATCHES = 8  # of the coarse blade
+UNDAMPED = {
+    "speeds": {"over_f1": [0.004984956779908617]},
+    "rounds": 4707,
+    "damping_ratio": 0.0,
+    "clearance": {"leading_edge_over_span": 1.5e-4, "trailing_edge_over_span": 4.3e-4},
+    "casing": {
+        "harmonics": [
+            {"order": 6, "amplitude_um": 696.2623585186935, "phase_deg": -0.42000000000000004}
+        ],
+        "ramp_rounds": 0.0,
+    },
+    "liner": {
+        "law": {
+            "kind": "plastic",
+            "E": 0.02402989659567139,
+            "unit_MPa": 8000.0,
+            "K": 0.010813453468052125,
+            "sigma_Y": 0.6736204372035324,
+        },
+        "thickness_mm": 5.0,
+        "strips": 1,
+        "footprint_mm": 5.0,
+        "rods_per_round": 2048,
+    },
+    "contact": {},
+    "record": {"samples_per_round": 64, "contact_force": True, "history": {"chord": [0.0625]}},
+}
 slow = pytest.mark.slow
 
 
 def is_plain(number):
-    case = draw(number, NOW)
+    case = draw(number, PATCHES)
     return (
         case.scene["liner"]["law"]["kind"] == "plastic"
         and case.scene["liner"]["worn_through"] == "stop"
@@ -59,7 +84,7 @@ def every(request):
 @pytest.fixture(scope="module")
 def ends(rom, every):
     plain = islice(filter(is_plain, count()), 0, CASES, every)
-    ends = [judge_case(draw(number, NOW), rom) for number in plain]
+    ends = [judge_case(draw(number, PATCHES), rom) for number in plain]
     print(f"\n{extremes(counts(ends))}")
     return ends
 
@@ -67,13 +92,13 @@ def ends(rom, every):
 @pytest.fixture(scope="module")
 def changing(rom, every):
     """Cases with travelling harmonics, clearances that change, and friction drawn in."""
-    return [judge_case(draw_changing(i, NOW), rom) for i in range(0, CHANGING, every)]
+    return [judge_case(draw_changing(i, PATCHES), rom) for i in range(0, CHANGING, every)]
 
 
 @pytest.fixture(scope="module")
 def long(rom, every):
     """Cases with steps in which the tip passes more than its footprint."""
-    return [judge_case(draw_long(i, NOW), rom) for i in range(0, CHANGING, every)]
+    return [judge_case(draw_long(i, PATCHES), rom) for i in range(0, CHANGING, every)]
 
 
 def verdicts(ends, kind):
@@ -95,8 +120,10 @@ def test_no_case_is_silently_wrong(drawn, every, request):
 
 @slow
 def test_where_an_eighth_of_the_step_does_not_agree_the_run_is_stopped(rom):
-    """Of an earlier seed, told in simulate/README.md: h, h/2 and h/4 agree within 2 %."""
-    end = judge_case(draw(172, BEFORE._replace(seed=20_261_125)), rom)
+    """Drawn once, told in simulate/README.md: h, h/2 and h/4 agree within 2 %."""
+    end = judge_case(
+        Case(UNDAMPED, "piecewise-exact", 39.63822639860563, True, 0.12747612983677709), rom
+    )
     assert end.checked == Verdict("flagged", "inaccurate")
     assert 0.45 < end.error["history"] < 0.55
     assert end.error["wear"] < 1e-3 and end.error["force_peak"] < 4e-3
@@ -134,19 +161,18 @@ def test_casings_are_turned_to_where_the_first_strip_starts(rom):
         assert np.degrees(rom.line(middles(strips))[0, 1]) == pytest.approx(degrees, abs=0.01)
 
 
-def strips_of(drawing, law="plastic"):
-    """How often each number of strips is drawn for a law in a thousand cases."""
-    liners = [draw(number, drawing).scene["liner"] for number in range(1000)]
-    return Counter(liner["strips"] for liner in liners if liner["law"]["kind"] == law)
+def strips_of(law):
+    """Numbers of strips that are drawn for a law in a thousand cases, on 16 patches."""
+    liners = [draw(number, 16).scene["liner"] for number in range(1000)]
+    return {liner["strips"] for liner in liners if liner["law"]["kind"] == law}
 
 
-def test_the_drawing_of_before_stays_and_that_of_now_has_no_fewer_strips_than_patches():
-    assert strips_of(BEFORE) == {8: 340, 1: 211, 16: 182}
-    assert {*strips_of(now(16))} == {1, 16, 32} and {*strips_of(now(16), "rigid")} == {16}
+def test_no_fewer_strips_than_patches_are_drawn_but_for_one():
+    assert strips_of("plastic") == {1, 16, 32} and strips_of("rigid") == {16}
 
 
 def test_the_same_number_is_the_same_case():
-    assert draw(7, NOW) == draw(7, NOW) and draw(7, NOW) != draw(8, NOW)
+    assert draw(7, PATCHES) == draw(7, PATCHES) and draw(7, PATCHES) != draw(8, PATCHES)
 
 
 def made(plain, default, checked, accurate, error=0.0, contact=True, cost=0.0):

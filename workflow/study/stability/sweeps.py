@@ -19,7 +19,7 @@ from simulate.marching import STATED, WITH_RESULT, SceneError
 from simulate.sweeps.over_speeds import as_sweep, at_speeds, check_sweep
 from simulate.sweeps.peak import along_order
 from simulate.sweeps.peak_results import asked
-from workflow.study.stability.cases import Case, Drawing, draw, now
+from workflow.study.stability.cases import Case, draw
 from workflow.study.stability.matrix import Ready, ready, references
 
 SWEEPS = 100
@@ -29,10 +29,10 @@ RESPONSE = 0.01  # gaps: peaks below are none
 RECORD = {"samples_per_round": 64, "spectrum_rounds": SPECTRUM}
 
 
-def swept(rom: Rom, drawing: Drawing) -> Iterator[dict[str, Any]]:
+def swept(rom: Rom) -> Iterator[dict[str, Any]]:
     """The drawn scenes that can be swept: number, peaks, and the share of steps of checks."""
     for number in count():
-        case = draw(number, drawing)
+        case = draw(number, len(rom.xi))
         try:
             made = _whole(case, rom)
             if made:
@@ -87,4 +87,4 @@ def _beside(of: Ready, run: Run, found: Run, k: int | None) -> dict[str, Any]:
 def numbers(files: Any) -> list[dict[str, Any]]:
     """The drawn sweeps on the reduced model ``files.rom``."""
     rom = Rom.load(files.rom)
-    return [*islice(swept(rom, now(len(rom.xi))), SWEEPS)]
+    return [*islice(swept(rom), SWEEPS)]
