@@ -9,8 +9,7 @@ from geometry.base import read_mapping, write_json
 from geometry.hats import hats
 from rom.modes import ShiftInvert
 from workflow import readme
-from workflow.study import frequencies, mesh_convergence
-from workflow.study.rotor37 import crossing, edge_cuts_table, prestress_table
+from workflow.study import blade_tables, frequencies
 
 ROOT = Path(__file__).parents[2]
 MODES = 10
@@ -34,7 +33,7 @@ def levels(order):
     for size, factor in zip(SIZES, FACTORS, strict=True):
         step = (size / SIZES[OWN]) ** order
         rest, speed = LIMIT * (1 + SLOPE * step), 1.1 * LIMIT * (1 + 0.8 * SLOPE * step)
-        row = made(mesh_convergence.OWN if factor == 1 else str(factor), [rest, rest, speed])
+        row = made(blade_tables.OWN if factor == 1 else str(factor), [rest, rest, speed])
         nodes = int(2e4 * FACTORS[OWN] / factor**2)
         deflection = TIP * (1 - 2e-4 * step)
         row["numbers"] |= {"element_size_mm": size, "nodes": nodes, "tip_deflection_m": deflection}
@@ -51,13 +50,13 @@ def of_meshes():
 @pytest.mark.parametrize("order", [0.9, 1.4, 2.0, 3.3])
 def test_the_order_and_limit_of_a_sequence_are_recovered(order):
     values = np.array([row["numbers"]["frequencies_Hz"][0] for row in levels(order)])
-    found = mesh_convergence.common_order(SIZES[-3:], values[-3:])
+    found = blade_tables.common_order(SIZES[-3:], values[-3:])
     assert found == pytest.approx(order, abs=1e-3)  # of the search
-    np.testing.assert_allclose(mesh_convergence.limits(SIZES, values, order), LIMIT, rtol=1e-14)
+    np.testing.assert_allclose(blade_tables.limits(SIZES, values, order), LIMIT, rtol=1e-14)
 
 
 def test_errors_are_against_the_limit_and_the_band_is_that_of_the_finest(of_meshes):
-    found = mesh_convergence.numbers(of_meshes)
+    found = blade_tables.numbers(of_meshes)
     at_rest = found["at_rest_Hz"]
     # the order is found to 1e-3
     np.testing.assert_allclose(at_rest["error"][OWN], SLOPE, rtol=5e-3)
@@ -67,13 +66,13 @@ def test_errors_are_against_the_limit_and_the_band_is_that_of_the_finest(of_mesh
 
 
 def test_the_coarsest_size_does_not_affect_the_order(of_meshes):
-    order = mesh_convergence.numbers(of_meshes)["order"]
+    order = blade_tables.numbers(of_meshes)["order"]
     of_meshes[0]["numbers"]["frequencies_Hz"][0] = list(1.01 * LIMIT)
-    assert mesh_convergence.numbers(of_meshes)["order"] == order
+    assert blade_tables.numbers(of_meshes)["order"] == order
 
 
 def test_table_states_limits_errors_and_bands(of_meshes):
-    text = mesh_convergence.table(of_meshes)
+    text = blade_tables.mesh_table(of_meshes)
     assert "4.96 mm (5,000 nodes)" in text and "observed order 1.40" in text
     assert "| 1 | 250.00 | +0.05 ± 0.04 | 275.00 | +0.04 ± 0.03 |" in text
     assert "0.4000 mm, error -0.02 ± 0.02 %" in text
@@ -88,7 +87,7 @@ def test_the_sizes_of_the_meshes_are_in_the_ratios_of_which_the_limit_is():
             read_mapping(ROOT / f"workflow/blades/{blade}.yaml")["mesh"]["element_size_mm"]
             for blade in blades
         ]
-        own = sizes[[*rows].index(mesh_convergence.OWN)]
+        own = sizes[[*rows].index(blade_tables.OWN)]
         np.testing.assert_allclose(sizes, own * np.array(FACTORS), rtol=1e-15)
 
 
@@ -119,8 +118,8 @@ def test_frequencies_and_deflection_of_a_blade(coarse_blade, coarse_files, coars
 def test_the_crossing_is_that_of_a_stiffening_beam():
     """omega^2 = omega_0^2 + c Omega^2 crosses k Omega at omega_0 / sqrt(k^2 - c)."""
     omega = np.sqrt(300.0**2 + 6 * np.square(SPEEDS))
-    assert crossing(SPEEDS, omega, 4) == pytest.approx(1 / np.sqrt(10), rel=1e-8)
-    assert np.isnan(crossing(SPEEDS, 2 * omega, 4))  # beyond the last speed
+    assert blade_tables.crossing(SPEEDS, omega, 4) == pytest.approx(1 / np.sqrt(10), rel=1e-8)
+    assert np.isnan(blade_tables.crossing(SPEEDS, 2 * omega, 4))  # beyond the last speed
 
 
 def test_crossing_with_a_fourth_power():
@@ -128,7 +127,7 @@ def test_crossing_with_a_fourth_power():
     speeds = [0.0, 60.0, 120.0]
     squares = np.square(speeds)
     omega = np.sqrt(9e4 + 6 * squares + 1e-4 * squares**2)
-    assert crossing(speeds, omega, 4) * omega[0] == pytest.approx(100, rel=1e-8)
+    assert blade_tables.crossing(speeds, omega, 4) * omega[0] == pytest.approx(100, rel=1e-8)
 
 
 REST = np.array([40.0, 200.0])
@@ -142,7 +141,7 @@ OF_ROTOR = [
 
 
 def test_a_table_has_either_prestress_at_speed_and_both_geometries_at_rest():
-    assert prestress_table(OF_ROTOR).splitlines()[2:9] == [
+    assert blade_tables.prestress_table(OF_ROTOR).splitlines()[2:9] == [
         "| at rest | 40.0 | 200.0 |",
         "| at rest, geometry as it runs | 36.0 | 180.0 |",
         "| 50 rad/s, nonlinear | 44.0 | 220.0 |",
@@ -154,7 +153,7 @@ def test_a_table_has_either_prestress_at_speed_and_both_geometries_at_rest():
 
 
 def test_cuts_are_compared_with_the_blade_s_own():
-    assert edge_cuts_table(OF_ROTOR).splitlines()[2:] == [
+    assert blade_tables.edge_cuts_table(OF_ROTOR).splitlines()[2:] == [
         "| 0.8 instead of 1.2 | -1.00 % | +0.00 % |",
         "| 2 instead of 1.2 | +2.00 % | -1.00 % |",
     ]
@@ -163,4 +162,4 @@ def test_cuts_are_compared_with_the_blade_s_own():
 def test_a_page_takes_a_study_where_it_has_been_run(of_meshes, tmp_path):
     write_json(of_meshes, tmp_path / "results/experiments/mesh/table.json")
     pages = readme.generated(readme.read_pages(ROOT), tmp_path)
-    assert mesh_convergence.table(of_meshes) in pages["fem/README.md"]
+    assert blade_tables.mesh_table(of_meshes) in pages["fem/README.md"]

@@ -74,7 +74,7 @@ from workflow.paper.figures import (
     spectrograms,
 )
 from workflow.paper.measure import coating
-from workflow.study import mesh_convergence
+from workflow.study import blade_tables
 from workflow.study.stability import told as stability
 
 CROSSING_4 = 1 / np.sqrt(16 - STIFFENING)  # f1^2 = 1 + 5.6 Omega^2 meets k^2 Omega^2
@@ -426,7 +426,7 @@ FIGURES = {
     "design": lambda get: designs.draw(get("design_rows")),
     "sensitivity": lambda get: designs.sensitivity(*read(designs, get("sobol_rows"))),
     "stress": lambda get: stress.draw(*AT_ONE_SIDE),
-    "mesh": lambda get: mesh_convergence.draw(get("of_meshes")),
+    "mesh": lambda get: blade_tables.draw(get("of_meshes")),
     "stability": lambda get: stability.draw([*ENGAGED, *INTERMITTENT]),
     "worst": lambda get: long_times.growth(*read(long_times, get("cases"), "growth")),
 }
@@ -1049,7 +1049,7 @@ def test_a_scene_without_spectrum_gets_a_wear_map_without_peaks(sweep, rom):
 def test_clamped_nodes_do_not_move_and_mode_shapes_have_one_scale():
     mesh = np.array([[0, 0, 0], [1, 0, 0], [2, 0, 0]], dtype=float)
     moved = np.array([[[2.0] * 3, [1.0] * 3]])
-    spread = modes_at_rest.spread(mesh_convergence, mesh[[2, 1]], moved)
+    spread = modes_at_rest.spread(mesh, mesh[[2, 1]], moved)
     np.testing.assert_array_equal(spread[0, :, 0], [0, 1, 2])
     np.testing.assert_allclose(
         modes_at_rest.unit_length(spread)[0, :, 0], spread[0, :, 0] / 12**0.5
