@@ -8,6 +8,7 @@ import pytest
 from projects import ROOT
 from scenes import scene
 
+from geometry.base import RPM
 from geometry.hats import middles
 from simulate.contact.places import SHARES, force_weights
 from simulate.errors.observables import numbers, observables
@@ -202,9 +203,9 @@ def test_what_a_scene_lacks_is_left_out_of_a_richer_one(of_study):
         travels = of_study["with", "an orbit of the rotor", label].scene
         stands = of_study["feature", "travelling harmonic: a fixed one", label].scene
         waves = [wave.model_dump() for wave in travels.casing.harmonics]
-        assert [wave["speed_rad_s"] for wave in waves] == [0, 0, 0, 150]
+        assert [wave["speed_rpm"] for wave in waves] == [0, 0, 0, 150 * RPM]
         assert (
-            travels.but(casing__harmonics=[wave | {"speed_rad_s": 0} for wave in waves]) == stands
+            travels.but(casing__harmonics=[wave | {"speed_rpm": 0} for wave in waves]) == stands
         )
         assert stands.but(casing__harmonics=waves[:3]) == plain
         pulse = of_study["with", "a pulse", label].scene
