@@ -204,9 +204,7 @@ def test_what_a_scene_lacks_is_left_out_of_a_richer_one(of_study):
         stands = of_study["feature", "travelling harmonic: a fixed one", label].scene
         waves = [wave.model_dump() for wave in travels.casing.harmonics]
         assert [wave["speed_rpm"] for wave in waves] == [0, 0, 0, 150 * RPM]
-        assert (
-            travels.but(casing__harmonics=[wave | {"speed_rpm": 0} for wave in waves]) == stands
-        )
+        assert travels.but(casing__harmonics=[wave | {"speed_rpm": 0} for wave in waves]) == stands
         assert stands.but(casing__harmonics=waves[:3]) == plain
         pulse = of_study["with", "a pulse", label].scene
         assert pulse.but(casing__ramp=None, casing__ramp_rounds=plain.casing.ramp_rounds) == plain

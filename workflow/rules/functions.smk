@@ -4,7 +4,9 @@ from workflow.experiment.plan import Experiment, cases
 from workflow.figures import table
 
 FIGURES = table.Figures(
-    read_or_fail(table.read, *own_files(f"workflow/{of}/figures.yaml" for of in ("figures", "paper"))),
+    read_or_fail(
+        table.read, *own_files(f"workflow/{of}/figures.yaml" for of in ("figures", "paper"))
+    ),
     scenes=SCENES,
     delivered=DELIVERED,
     stressed=STRESSED,
