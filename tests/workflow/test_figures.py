@@ -623,7 +623,7 @@ NUMBERS = {  # by figure and what is shown: the numbers that are drawn, and what
     ),
     # a tenth; a cosine over 32 rods, straight between: (2 pi / 32)^2 / 8 sqrt(8/15 / 2 / 1.5) of it
     ("fig07", "differences of two densities in %"): (
-        lambda drawn: [float(axes.texts[0].get_text().split()[-2]) for axes in drawn.axes],
+        lambda drawn: [float(axes.get_title().split()[-2]) for axes in drawn.axes],
         [9.9, 0.2],
     ),
     ("fig08", "displacements of the first rounds"): (
@@ -639,7 +639,7 @@ NUMBERS = {  # by figure and what is shown: the numbers that are drawn, and what
         0.9 * CYCLES[-SAMPLES:],
     ),
     ("fig08", "differences of three steps in %"): (
-        lambda drawn: re.findall(r"(\d+) %", drawn.axes[3].texts[0].get_text()),
+        lambda drawn: re.findall(r"(\d+) %", drawn.axes[3].get_title()),
         ["20", "10"],
     ),
     ("fig10", "peaks on the map"): (
@@ -923,7 +923,7 @@ def test_a_run_without_a_valid_result_is_labelled(densities, tmp_path, status):
     runs = read(resolution, SimpleNamespace(coarse=densities.coarse, fine=path), "wear")
     (axes, *_) = resolution.wear(*runs).axes
     assert status in axes.get_title()
-    assert ("no result" in axes.texts[0].get_text()) is (status == "unstable")
+    assert ("no result" in axes.get_title()) is (status == "unstable")
 
 
 def test_a_sweep_in_the_figures_units(seen):

@@ -12,17 +12,15 @@ from refused import refused
 from scipy.spatial import cKDTree
 
 from geometry.hats import hat_nodes
+from geometry.interface import tip_of
 from geometry.readers import read_mesh_file
 from geometry.tip import cartesian
 from simulate.scene import Contact, Harmonic, Profile, Scene
-from simulate.scene.laws.elastic import Elastic
-from simulate.scene.laws.plastic import Plastic
-from simulate.sweeps.dataset import load as load_sweep, save as save_sweep
+from simulate.sweeps.dataset import save as save_sweep
 from workflow.figures import rendering
 from workflow.jobs.figure import read
 from workflow.paper.figures import around, blade as blade_and_patches, footprint
-from workflow.paper.footprint import FootprintError, at_deepest, into_fresh
-from workflow.paper.laws import slopes
+from workflow.paper.figures.footprint import FootprintError, at_deepest, into_fresh
 
 PATCHES = 8
 
@@ -42,8 +40,9 @@ def blade_files(coarse_mesh):
 
 
 @pytest.fixture(scope="module")
-def blade(blade_files):
-    return blade_and_patches.tipped(*blade_files)
+def tip(blade_files):
+    mesh, _ = blade_files
+    return tip_of(blade_and_patches.facets_of(mesh), mesh.points)
 
 
 @pytest.fixture(scope="module")
@@ -51,56 +50,57 @@ def blade_panels(blade_files):
     return blade_and_patches.draw(*blade_files).axes
 
 
-def test_pixels_of_points_agree_with_the_picture(blade):
+def test_pixels_of_points_agree_with_the_picture(blade_files):
     """The outermost points of the surface bound the picture, up to the outline 4 pixels wide."""
     look = blade_and_patches.PAINT, (0, 1), blade_and_patches.LIGHT
-    zeros = np.zeros(blade.solid.n_points)
-    image = rendering.picture(blade.solid, 0, zeros, blade_and_patches.VIEW, *look)
+    solid = rendering.solid(blade_files[0])
+    zeros = np.zeros(solid.n_points)
+    image = rendering.picture(solid, 0, zeros, blade_and_patches.VIEW, *look)
     rows, columns = rendering.window([image])
-    pixels = rendering.pixels(blade.solid, blade_and_patches.VIEW, blade.solid.points)
+    pixels = rendering.pixels(solid, blade_and_patches.VIEW, solid.points)
     low, high = pixels.min(axis=0), pixels.max(axis=0)
     np.testing.assert_allclose(low, [columns.start, rows.start], atol=3)
     np.testing.assert_allclose(high, [columns.stop - 1, rows.stop - 1], atol=3)
 
 
-def chord_fractions(blade, z, arc):
+def chord_fractions(tip, z, arc):
     """Chord fractions of points of the unrolled tip, mm."""
-    radius = np.full_like(z, blade.tip.radius)
-    return blade.tip.xi(cartesian(np.column_stack([radius, 1e-3 * arc / radius, 1e-3 * z])))
+    radius = np.full_like(z, tip.radius)
+    return tip.xi(cartesian(np.column_stack([radius, 1e-3 * arc / radius, 1e-3 * z])))
 
 
-def test_the_tip_is_drawn_by_its_facets(coarse_mesh, blade):
+def test_the_tip_is_drawn_by_its_facets(coarse_mesh, blade_files, tip):
     """All of the mesh's group, on the tip's cylinder with the middles of their edges."""
-    corners = read_mesh_file(coarse_mesh.mesh).face_groups["tip"]
-    facets = {tuple(sorted(facet[:3])) for facet in blade.facets.tolist()}
-    assert facets == {tuple(sorted(face)) for face in corners.tolist()}
-    radii = np.hypot(*blade.solid.points[blade.facets, :2].reshape(-1, 2).T)
-    np.testing.assert_allclose(radii, blade.tip.radius, rtol=1e-4)
+    mesh, _ = blade_files
+    drawn, group = blade_and_patches.facets_of(mesh), read_mesh_file(coarse_mesh.mesh).face_groups
+    facets = {tuple(sorted(facet[:3])) for facet in drawn.tolist()}
+    assert facets == {tuple(sorted(face)) for face in group["tip"].tolist()}
+    radii = np.hypot(*mesh.points[drawn, :2].reshape(-1, 2).T)
+    np.testing.assert_allclose(radii, tip.radius, rtol=1e-4)
 
 
-def test_nodes_of_the_patches_lie_on_the_camber_line(blade, blade_panels):
+def test_nodes_of_the_patches_lie_on_the_camber_line(tip, blade_panels):
     """As many as the reduced model has; leading edge upstream and ahead in rotation, upwards."""
-    _, tip, _ = blade_panels
-    nodes = next(line for line in tip.lines if line.get_marker() == ".")
+    nodes = next(line for line in blade_panels[1].lines if line.get_marker() == ".")
     z, arc = nodes.get_data()
-    np.testing.assert_allclose(chord_fractions(blade, z, arc), hat_nodes(PATCHES), atol=2e-3)
-    line = blade.tip.camber_line()
-    np.testing.assert_allclose(arc[[0, -1]], 1e3 * blade.tip.radius * line[[0, -1], 1])
+    np.testing.assert_allclose(chord_fractions(tip, z, arc), hat_nodes(PATCHES), atol=2e-3)
+    line = tip.camber_line()
+    np.testing.assert_allclose(arc[[0, -1]], 1e3 * tip.radius * line[[0, -1], 1])
     assert z[0] < z[-1] and arc[0] > arc[-1]
 
 
-def test_the_leading_eighth_and_the_place_of_displacement_are_marked(blade, blade_panels):
+def test_the_leading_eighth_and_the_place_of_displacement_are_marked(tip, blade_panels):
     """The eighth between the sides of the tip, the place in its middle on the camber line."""
-    _, tip, over_chord = blade_panels
-    eighth = tip.patches[0].get_xy()[:-1]
-    xi = chord_fractions(blade, *eighth.T)
+    _, unrolled, over_chord = blade_panels
+    eighth = unrolled.patches[0].get_xy()[:-1]
+    xi = chord_fractions(tip, *eighth.T)
     assert [xi.min(), xi.max()] == pytest.approx([blade_and_patches.SLIVER, 1 / 8], abs=1e-3)
-    _, theta, z = blade.tip.outline.T
-    outline = 1e3 * np.column_stack([z, blade.tip.radius * theta])  # mm
+    _, theta, z = tip.outline.T
+    outline = 1e3 * np.column_stack([z, tip.radius * theta])  # mm
     sides = np.linspace(outline, np.roll(outline, -1, axis=0), 500).reshape(-1, 2)
     assert cKDTree(sides).query(eighth)[0].max() < 0.02
-    place = next(line for line in tip.lines if line.get_marker() == "o")
-    assert chord_fractions(blade, *place.get_data()) == pytest.approx(1 / 16, abs=1e-3)
+    place = next(line for line in unrolled.lines if line.get_marker() == "o")
+    assert chord_fractions(tip, *place.get_data()) == pytest.approx(1 / 16, abs=1e-3)
     (band,) = over_chord.patches
     assert (band.get_x(), band.get_width()) == (0, 1 / 8)
 
@@ -145,8 +145,8 @@ def footprint_files(paper, tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def footprints(footprint_files):
-    rom = made_rom()
-    return at_deepest(footprint_files.sweep, rom), into_fresh(footprint_files.tilted, rom)
+    sweep, tilted = read(footprint, footprint_files)
+    return at_deepest(sweep), into_fresh(tilted)
 
 
 @pytest.fixture(scope="module")
@@ -228,26 +228,11 @@ def test_the_profiled_tip_has_the_scenes_profile(footprints, footprint_panels):
     np.testing.assert_allclose(lengths / lengths.max(), force[force > 0] / force.max())
 
 
-def test_sweeps_without_a_footprint_are_refused_with_the_remedy(footprint_files, tmp_path):
-    swept = load_sweep(footprint_files.sweep)
-    save_sweep(swept.assign(wear=0 * swept["wear"]), tmp_path / "fresh.nc")
-    refused(FootprintError, at_deepest, tmp_path / "fresh.nc", made_rom(), match="no worn liner")
-    refused(FootprintError, into_fresh, footprint_files.sweep, made_rom(), match="its tip is flat")
-
-
-@pytest.mark.parametrize(("E", "K"), [(1, 0.45), (10, 4.55), (10, 0.45), (100, 45.45), (10, None)])
-@pytest.mark.parametrize("unit", [1.0, 8e9])
-def test_slopes_of_a_law(E, K, unit):
-    """E K / (E + K) above the elastic limit, E in unloading and reloading; to five digits less.
-
-    An elastic law, without K, has one slope.
-    """
-    law = Elastic(kind="elastic", E=E, unit_Pa=unit)
-    if K:
-        law = Plastic(kind="plastic", E=E, K=K, sigma_Y=1e-8, unit_Pa=unit)
-    first = E * K / (E + K) if K else E
-    expected = {"loading": first * unit, "unloading": E * unit, "reloading": E * unit}
-    assert slopes(law) == pytest.approx(expected, rel=1e-9)
+def test_sweeps_without_a_footprint_are_refused_with_the_remedy(footprint_files):
+    flat, _ = read(footprint, footprint_files)
+    fresh = replace(flat, sweep=flat.sweep.assign(wear=0 * flat.sweep["wear"]))
+    refused(FootprintError, at_deepest, fresh, match="no worn liner")
+    refused(FootprintError, into_fresh, flat, match="its tip is flat")
 
 
 @pytest.fixture(scope="module")

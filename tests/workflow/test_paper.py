@@ -10,7 +10,6 @@ import xarray as xr
 from geometry.base import write_json
 from simulate.scene import Scene
 from simulate.signals import LOBE_BLUR
-from simulate.sweeps.peak import Peak
 from simulate.sweeps.sweep import sweep
 from tests.simulate.scenes import scene
 from workflow.experiment.plan import cases
@@ -19,7 +18,6 @@ from workflow.paper.cost import cost
 from workflow.paper.laws import slopes_over_closed_form
 from workflow.paper.peaks import worn_at
 from workflow.paper.published import E, K
-from workflow.paper.signals import mode_share
 
 WORKFLOW = Path(measure.__file__).parents[1]
 RODS, GAP = 360, 2e-5
@@ -147,16 +145,6 @@ def test_disorder_depends_on_amplitudes_and_not_on_a_threshold():
     assert measure.disorder(lines, 0.3) == pytest.approx(np.log(4) / np.log(bins), abs=1e-6)
     above = np.cos(2 * np.pi * 100 * t)  # beyond 20 f1
     assert measure.disorder(tone + above, 0.3) == pytest.approx(0, abs=1e-6)
-
-
-def test_mode_1_has_the_energy_along_the_engine_order_of_its_peak():
-    """Contact stiffens it by a fifth: 0.67 orders above its own frequency, where it is locked."""
-    at = Peak(4, 0, 0.38)
-    revolutions = np.arange(10 * 256) / 256
-    locked = np.sin(2 * np.pi * 4 * revolutions)
-    apart = 0.5 * np.sin(2 * np.pi * 8 * revolutions)
-    assert mode_share(locked, 256, at.Omega_c, 4 / 1.2 * at.Omega_c) == pytest.approx(0, abs=1e-12)
-    assert measure.share_of_mode_1(locked + apart, 256, at) == pytest.approx(4 / 5)
 
 
 def test_the_mean_ratio_is_of_the_runs_with_a_result():

@@ -9,8 +9,7 @@ from made_sweeps import ROUNDS, SAMPLES, made_rom, save_runs
 from simulate.signals import spectrum
 from workflow.jobs.figure import read
 from workflow.paper.figures import spectrograms
-from workflow.paper.figures.spectrograms import SLICES, WINDOW
-from workflow.paper.signals import mode_share, spectral_entropy, spectrogram
+from workflow.paper.measure import share_of_mode_1, spectral_entropy
 
 SPEED = 0.35
 TIME = np.arange(1, ROUNDS * SAMPLES + 1) / SAMPLES
@@ -20,7 +19,7 @@ def test_a_harmonic_has_its_amplitude_in_the_spectrogram():
     """Order 4 all along, order 8 in the second half: on bins of the window of two rounds."""
     late = TIME > ROUNDS / 2
     u_r = 0.7 * np.cos(2 * np.pi * 4 * TIME) + 0.2 * late * np.cos(2 * np.pi * 8 * TIME)
-    time, orders, amplitude = spectrogram(u_r, SAMPLES, WINDOW, SLICES)
+    time, orders, amplitude = spectrograms.spectrogram(u_r, SAMPLES)
     assert (time[0], time[-1]) == (1, ROUNDS - 1)  # windows of two rounds that the run fills
     assert np.diff(time) == pytest.approx(1 / 16)
     later, before = time >= ROUNDS / 2 + 1, time <= ROUNDS / 2 - 1
@@ -70,26 +69,22 @@ def tone(order, amplitude=1.0):
 
 
 @pytest.mark.parametrize(
-    ("u_r", "over_f1", "f1", "share"),
+    ("u_r", "share"),
     [
-        (5 + tone(3.6), 0.25, 0.9, 1),  # at f1
-        (tone(3.6), 0.25, 4.0, 0),
-        # by the square of the amplitudes
-        (tone(4, 2.0) + tone(7, 1.0), 0.3, 1.2, 4 / 5),
-        (tone(4, 2.0) + tone(7, 1.0), 0.3, 2.1, 1 / 5),
-        # f1 = 3.55 Omega: of the bins, a tenth of an order apart, those from 3.05 to 4.05
-        *(
-            (tone(k), 0.5, 3.55 * 0.5, share)
-            for k, share in ((3.0, 0), (3.1, 1), (4.0, 1), (4.1, 0))
-        ),
+        # contact locks mode 1 to the engine order of its peak; by the square of the amplitudes
+        (5 + tone(4), 1),
+        (tone(4, 2.0) + tone(7), 4 / 5),
+        (tone(4) + tone(7, 2.0), 1 / 5),
+        # of the bins, a tenth of an order apart, those from 3.5 to 4.5
+        *((tone(k), share) for k, share in ((3.4, 0), (3.5, 1), (4.5, 1), (4.6, 0))),
     ],
 )
-def test_a_mode_has_the_share_of_the_band_of_half_an_order_to_either_side(u_r, over_f1, f1, share):
-    assert mode_share(u_r, 64, over_f1, f1) == pytest.approx(share, rel=1e-12, abs=1e-12)
+def test_mode_1_has_the_share_of_the_band_of_half_an_order_to_either_side(u_r, share):
+    assert share_of_mode_1(u_r, 64) == pytest.approx(share, rel=1e-12, abs=1e-12)
 
 
 def test_a_blade_at_rest_has_neither_share_nor_entropy():
-    assert np.isnan(mode_share(np.zeros(640), 64, 0.3, 1.2))
+    assert np.isnan(share_of_mode_1(np.zeros(640), 64))
     assert np.isnan(spectral_entropy(np.zeros(10)))
 
 

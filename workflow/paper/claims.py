@@ -49,8 +49,10 @@ def size(numbers: Numbers) -> Finding:
     That n is at most 90 is no result: 8 nodes in 3 directions and 6 modes, at 3 speeds.
     """
     n = numbers["model"]["n"]
-    at_most = less("n, at most 90", n, 90.5, calibrated=True)
-    return Finding((Value("n", n, 84, 86, calibrated=True),), (at_most,))
+    return Finding(
+        (Value("n", n, 84, 86, calibrated=True),),
+        (less("n, at most 90", n, 90.5, calibrated=True),),
+    )
 
 
 def frequencies_of_rom(numbers: Numbers) -> Finding:
@@ -122,14 +124,13 @@ def time_by_density(numbers: Numbers) -> Finding:
 
 def modes(numbers: Numbers) -> Finding:
     """C09: the paper gives pictures, no numbers."""
-    f = numbers["model"]["frequencies"]
-    return Finding(shown={f"f{i + 1}/f1": f[i] for i in range(1, 5)})
+    above = enumerate(numbers["model"]["frequencies"][1:5], start=2)
+    return Finding(shown={f"f{i}/f1": ratio for i, ratio in above})
 
 
 def crossings(numbers: Numbers) -> Finding:
     """C10: the paper's 0.17 and 0.31 contradict each other under f1^2 = 1 + B Omega^2."""
-    speeds = numbers["model"]["crossings"]
-    k4, k6 = speeds["4"], speeds["6"]
+    k4, k6 = (numbers["model"]["crossings"][k] for k in ("4", "6"))
     return Finding(
         (
             _rounded("crossing of k = 4", k4, CROSSING[4], calibrated=True),
@@ -160,12 +161,20 @@ def shifts(numbers: Numbers) -> Finding:
         )
         for (part, k), (paper, digit) in SHIFTS.items()
     ]
-    least = min(ours.values())
-    statements = [more("least shift", least, 1, max(resolution.values()), calibrated=True)]
-    for k in ("4", "6"):
-        stiff, soft = ours["e10", k], ours["e1", k]
-        name = f"E = 10 over E = 1, k = {k}"
-        statements.append(more(name, stiff / soft, 1, 2 * resolution[k], calibrated=True))
+    coarsest = max(resolution.values())
+    statements = [
+        more("least shift", min(ours.values()), 1, coarsest, calibrated=True),
+        *(
+            more(
+                f"E = 10 over E = 1, k = {k}",
+                ours["e10", k] / ours["e1", k],
+                1,
+                2 * resolution[k],
+                calibrated=True,
+            )
+            for k in ("4", "6")
+        ),
+    ]
     over_consistent = {
         f"the paper's, {name}, k = 6, over {CONSISTENT[6]}": CRITICAL[part][6] / CONSISTENT[6]
         for part, name in COATING.items()
@@ -200,7 +209,6 @@ def superharmonics(numbers: Numbers) -> Finding:
     """C14: k worn lobes near the crossing of k; the peaks in the spectra are shown as well."""
     orders, peaks = (8, 10, 12, 14), numbers["e10"]["peaks"]
     seen = sum(k in numbers["e10"]["orders_in_wear"] for k in orders)
-    clear = sum(peaks[str(k)]["clear"] for k in orders if str(k) in peaks)
     return Finding(
         (Value("of k = 8, 10, 12, 14", seen, 4, 4),),
         (more("any of them", seen, 0.5),),
@@ -208,7 +216,7 @@ def superharmonics(numbers: Numbers) -> Finding:
             "as harmonic of the wear": sum(
                 k in numbers["e10"]["orders_in_harmonics"] for k in orders
             ),
-            "in the spectra": clear,
+            "in the spectra": sum(peaks[str(k)]["clear"] for k in orders if str(k) in peaks),
         },
         "Away from k = 4 and 6 the tip wears where the casing is nearest, in marks of successive "
         "revolutions that overlap.",
@@ -236,8 +244,9 @@ def lobes(numbers: Numbers) -> Finding:
 def deeper_wear(numbers: Numbers) -> Finding:
     """C16: a datum of the identification."""
     e1, e10 = (_peak(numbers, part, 4)["deepest_wear"] for part in ("e1", "e10"))
-    name = "deepest wear, E = 10 over E = 1"
-    return Finding(statements=(more(name, e10 / e1, 1, calibrated=True),))
+    return Finding(
+        statements=(more("deepest wear, E = 10 over E = 1", e10 / e1, 1, calibrated=True),)
+    )
 
 
 def worst_case(numbers: Numbers) -> Finding:
@@ -291,11 +300,10 @@ def stiffening(numbers: Numbers) -> Finding:
         growing = sum(rank > 0 for rank in lines) / len(lines)
         values.append(Value(f"share of {held} at which it grows with {x}", growing, 1, 1))
         statements.append(more(f"rank correlation with {x}, mean", sum(lines) / len(lines), 0))
-    ductile = numbers["grid"]["rank"]["E"][0]
     return Finding(
         tuple(values),
         tuple(statements),
-        {f"with E at K = {K[0]:g}": ductile},
+        {f"with E at K = {K[0]:g}": numbers["grid"]["rank"]["E"][0]},
         "With a small K a larger E only increases wear, the wear of a rod being about sigma/K: its "
         "peaks are low, and where they stand is hardly decided.",
     )
@@ -305,7 +313,6 @@ def imperfect_casing(numbers: Numbers) -> Finding:
     """C20: the casing is that of the medoid, on which no datum of the identification bears."""
     casing = numbers["two_five"]
     four, five, six = (casing["peaks"][k] for k in ("4", "5", "6"))
-    off = casing["most_frequent_off_resonance"]
     return Finding(
         (
             _rounded(
@@ -313,7 +320,7 @@ def imperfect_casing(numbers: Numbers) -> Finding:
             ),
         ),
         (
-            equal("most frequent lobes off resonance", off, 5),
+            equal("most frequent lobes off resonance", casing["most_frequent_off_resonance"], 5),
             equal("lobes at k = 5", five["lobes"], 5),
             equal("lobes at k = 4", four["lobes"], 4),
             equal("lobes at k = 6", six["lobes"], 6),
@@ -329,8 +336,8 @@ def imperfect_casing(numbers: Numbers) -> Finding:
 
 def force_ratio(numbers: Numbers) -> Finding:
     """C21: the tilt of the tip is set to this ratio."""
-    ratio = _rounded("mean ratio", numbers["tangential"]["ratio"], FORCE_RATIO, calibrated=True)
-    return Finding((ratio,), by_setting=True)
+    ratio = numbers["tangential"]["ratio"]
+    return Finding((_rounded("mean ratio", ratio, FORCE_RATIO, calibrated=True),), by_setting=True)
 
 
 def tangential_lowers(numbers: Numbers) -> Finding:
@@ -340,8 +347,7 @@ def tangential_lowers(numbers: Numbers) -> Finding:
         without, with_it = (_peak(numbers, part, k) for part in ("tilted", "tangential"))
         for name, key in (("‖Y‖", "amplitude"), ("Omega_c", "Omega_c")):
             ratio = with_it[key] / without[key]
-            resolution = 2 * SPACING_OF_TILTED / without["Omega_c"]
-            resolution = resolution if key == "Omega_c" else 0.0
+            resolution = 2 * SPACING_OF_TILTED / without[key] if key == "Omega_c" else 0.0
             statements.append(less(f"{name} at k = {k}, with over without", ratio, 1, resolution))
             if "e10" in numbers:  # not with a choice changed
                 ratio = with_it[key] / _peak(numbers, "e10", k)[key]
@@ -389,14 +395,14 @@ def growth(numbers: Numbers) -> Finding:
     """C26: growth at the critical speed found after twenty revolutions."""
     ratios = numbers["long"]["growth"]
     fallen = [name for name, ratio in ratios.items() if ratio < FALLEN]
-    detuned = f"Wear has detuned {' and '.join(fallen)}: the response has left the peak by then."
-    other = "With other steps or rods the motion is another one after 200 revolutions."
     return Finding(
         statements=tuple(
             more(f"‖Y‖ after 200 revolutions (or all) over 20, {name}", ratio, 1 + INSIGNIFICANT)
             for name, ratio in ratios.items()
         ),
-        because=detuned if fallen else other,
+        because=f"Wear has detuned {' and '.join(fallen)}: the response has left the peak by then."
+        if fallen
+        else "With other steps or rods the motion is another one after 200 revolutions.",
     )
 
 

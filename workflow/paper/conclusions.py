@@ -59,12 +59,11 @@ def text(claims: Sequence[Row], identified: Mapping[str, Any], long: Mapping[str
     identified : what the identification found (workflow/paper/identified)
     long : numbers of long times
     """
-    others = named(claims, "other")
     compared = [row for row in claims if row["verdict"] != "not comparable"]
     groups = {name: [_line(row) for row in compared if _group(row) == name] for name in GROUPS}
     draws, size = identified["shares"]["draws"], identified["fits"][FIT][DATA]["effective"]
     introduction = INTRODUCTION.format(
-        other=" and ".join(others) or "no other",
+        other=" and ".join(named(claims, "other")) or "no other",
         draws=draws,
         size=size,
         share=100 * NEARLY_ALL,

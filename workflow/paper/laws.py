@@ -2,7 +2,6 @@
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import brentq
 
 from simulate.scene.law import Law
 from simulate.scene.laws.elastic import Elastic
@@ -36,33 +35,19 @@ def loop(law: Law, peaks: tuple[float, float]) -> tuple[NDArray[np.float64], NDA
     return strain, stress
 
 
-def slopes(law: Law) -> dict[str, float]:
-    """Slopes d sigma / d eps, Pa, of the computed path.
-
-    ``loading`` above the elastic limit, then ``unloading``, and ``reloading``.
-    """
-    strain, stress = (np.ptp(path, axis=1) for path in loop(law, STRAINS))
-    branches = {"loading": LOADING_ON, "unloading": UNLOADING, "reloading": RELOADING}
-    return {name: float(stress[i] / strain[i]) for name, i in branches.items()}
-
-
 def slopes_over_closed_form() -> dict[str, float]:
-    """Slopes of loading over EK/(E + K) and of unloading over E, for each plastic law of Fig. 5."""
+    """Slopes of loading over EK/(E + K) and of unloading over E, for each plastic law of Fig. 5.
+
+    d sigma / d eps of the computed paths, of loading above the elastic limit.
+    """
     ratios = {}
-    for law in COMPARED:
-        if law.kind != "plastic":
-            continue
-        closed = {"loading": law.E * law.K / (law.E + law.K), "unloading": law.E}
-        for name, slope in closed.items():
-            ratios[f"{name}, E = {law.E:g}, K = {law.K:g}"] = slopes(law)[name] / slope
+    for law in (law for law in COMPARED if law.kind == "plastic"):
+        strain, stress = (np.ptp(path, axis=1) for path in loop(law, STRAINS))
+        closed = {
+            "loading": (LOADING_ON, law.E * law.K / (law.E + law.K)),
+            "unloading": (UNLOADING, law.E),
+        }
+        for name, (branch, slope) in closed.items():
+            found = float(stress[branch] / strain[branch])
+            ratios[f"{name}, E = {law.E:g}, K = {law.K:g}"] = found / slope
     return ratios
-
-
-def strain_at(law: Law, stress: float) -> float:
-    """Strain at which a new rod has the stress ``stress``, Pa; the stress grows with the strain."""
-    return brentq(lambda eps: law.stress(law.parameters, eps, 0.0)[0] - stress, 0.0, 1.0)
-
-
-def strain_of(law: Law, eps_p: float) -> float:
-    """Largest strain of a rod with the plastic strain ``eps_p``."""
-    return brentq(lambda eps: law.stress(law.parameters, eps, 0.0)[1] - eps_p, eps_p, 1.0)

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
-from scipy.stats import spearmanr
+from scipy.stats import entropy, spearmanr
 
 from rom.check import RomCheck
 from rom.model import Rom
@@ -22,14 +22,13 @@ from rom.polynomial import evaluate
 from simulate.errors.observables import error
 from simulate.marching import WITH_RESULT, march, prepare
 from simulate.scene import LEADING, Scene
-from simulate.signals import leading_gap, leading_wear, spectrum
+from simulate.signals import leading_gap, leading_wear, lobe_count, spectrum
 from simulate.sweeps.crossings import crossing
 from simulate.sweeps.dataset import over_f1, scene_of, statuses
-from simulate.sweeps.peak import Peak, peak_of
+from simulate.sweeps.peak import peak_of
 from workflow.paper.grid import coating_of, worst
-from workflow.paper.peaks import lobes_over_speed, peak
-from workflow.paper.published import WORST
-from workflow.paper.signals import mode_share, spectral_entropy
+from workflow.paper.peaks import peak
+from workflow.paper.published import ENGINE_ORDER, WORST
 
 ORDERS = range(3, 15)  # engine orders along which the paper sees peaks, or could
 NEAR = (0.97, 1.25)  # speeds over the crossing of k at which k lobes belong to that resonance
@@ -44,24 +43,26 @@ def model(rom: Rom, check: RomCheck, paper: Rom, paper_check: RomCheck, nonlinea
 
     ``nonlinear``: one whose K2 is not zero, as it is with linear prestress.
     """
-    numbers = {
-        "n": paper.n,
-        "error": float(abs(paper_check.error[:, :7]).max()),
-        "error_default": float(abs(check.error[:, :7]).max()),
-        "speeds": len(check.speeds),
-        "K2": {name: _residual(nonlinear, factor) for name, factor in K2_FACTORS.items()},
-        "frequencies": (check.full[0, :5] / check.full[0, 0]).tolist(),
-        "crossings": {str(k): crossing(rom, k) for k in (4, 5, 6)},
-        "tangential_over_radial": direction(paper),
+    return {
+        "model": {
+            "n": paper.n,
+            "error": float(abs(paper_check.error[:, :7]).max()),
+            "error_default": float(abs(check.error[:, :7]).max()),
+            "speeds": len(check.speeds),
+            # Eq. (3) as printed has 3/4
+            "K2": {"printed": _residual(nonlinear, 3 / 4), "4/3": _residual(nonlinear, 4 / 3)},
+            "frequencies": (check.full[0, :5] / check.full[0, 0]).tolist(),
+            "crossings": {str(k): crossing(rom, k) for k in (4, 5, 6)},
+            "tangential_over_radial": direction(paper),
+        }
     }
-    return {"model": numbers}
-
-
-K2_FACTORS = {"printed": 3 / 4, "4/3": 4 / 3}  # before K2 in Eq. (3), over Omega_m^4
 
 
 def _residual(rom: Rom, factor: float) -> float:
-    """Largest relative residual of Eq. (3) at its three speeds, with ``factor`` before K2."""
+    """Largest relative residual of Eq. (3) at its three speeds.
+
+    ``factor``: before K2, over Omega_m^4.
+    """
     m = rom.Omega_m
     speeds = (0.0, m / 2, m)
     rest, half, full = (rom.stiffness(Omega) for Omega in speeds)
@@ -83,15 +84,23 @@ def direction(rom: Rom) -> float:
 
 def coating(runs: xr.Dataset, rom: Rom) -> Numbers:
     """One sweep: peaks of all orders, lobes at and away from them, statuses."""
-    speeds, lobes = lobes_over_speed(runs)
-    ended = runs.isel(speed_over_f1=np.isin(runs["status"].values, WITH_RESULT))
+    speeds, wear, lobes = _worn(runs)
     return {
         "peaks": {str(k): p for k in ORDERS if (p := peak(runs, rom, k))},
         "lobes": {"slowest": int(lobes[0]), "fastest": int(lobes[-1])},
         "orders_in_wear": _orders_seen(rom, speeds, lambda k: lobes == k),
-        "orders_in_harmonics": _orders_in_harmonics(rom, speeds, leading_wear(ended)),
+        "orders_in_harmonics": _orders_in_harmonics(rom, speeds, wear),
         "statuses": statuses(runs),
     }
+
+
+def _worn(
+    runs: xr.Dataset,
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int64]]:
+    """Speeds (runs,) with a result, worn depth (runs, nu), and number of worn lobes (runs,)."""
+    ended = runs.isel(speed_over_f1=np.isin(runs["status"].values, WITH_RESULT))
+    wear = leading_wear(ended)
+    return ended["speed_over_f1"].values, wear, np.array([lobe_count(depth) for depth in wear], int)
 
 
 def _orders_seen(
@@ -130,7 +139,7 @@ def two_five(runs: xr.Dataset, rom: Rom) -> Numbers:
     """
     peaks = {str(k): peak(runs, rom, k) for k in (4, 5, 6)}
     critical = [p["Omega_c"] for p in peaks.values() if p]
-    speeds, lobes = lobes_over_speed(runs)
+    speeds, _, lobes = _worn(runs)
     swept = np.isin(speeds, over_f1(scene_of(runs).speeds.omega(rom.f1), rom))
     off = swept & ~np.any([np.abs(speeds / c - 1) <= RESONANT for c in critical], axis=0)
     return {
@@ -163,14 +172,21 @@ def tip_force(runs: xr.Dataset, rom: Rom) -> Numbers | None:
         "peaks": {str(k): peak(runs, rom, k) for k in (4, 6)},
         "statuses": statuses(runs),
         "ratio": _ratio(runs),
-        "mode_share": share_of_mode_1(last, samples, main),
+        "mode_share": share_of_mode_1(last, samples),
         "disorder": disorder(last, main.Omega_c),
     }
 
 
-def share_of_mode_1(u_r: NDArray[np.float64], samples: int, main: Peak) -> float:
-    """Share of mode 1, in contact at 4 Omega_c, in the energy of ``u_r`` at the peak of EO 4."""
-    return mode_share(u_r, samples, main.Omega_c, 4 * main.Omega_c)
+def share_of_mode_1(u_r: NDArray[np.float64], samples_per_round: int) -> float:
+    """Share of the energy of ``u_r`` within half an engine order of 4 at the peak of EO 4.
+
+    There mode 1 vibrates at 4 Omega_c in contact. ``u_r`` spans a whole number of revolutions;
+    energy is amplitude squared, without the mean. nan without any vibration.
+    """
+    energy = spectrum(u_r)[1:] ** 2
+    orders = np.arange(1, len(energy) + 1) * samples_per_round / len(u_r)
+    near, total = np.abs(orders - ENGINE_ORDER) <= 0.5, energy.sum()
+    return float(energy[near].sum() / total) if total > 0 else float("nan")
 
 
 def disorder(u_r: NDArray[np.float64], speed_over_f1: float) -> float:
@@ -181,6 +197,20 @@ def disorder(u_r: NDArray[np.float64], speed_over_f1: float) -> float:
     """
     bins = round(HIGHEST / speed_over_f1 * SPECTRUM_ROUNDS)
     return spectral_entropy(np.sqrt(spectrum(u_r)[1 : bins + 1]))
+
+
+def spectral_entropy(amplitudes: NDArray[np.float64]) -> float:
+    """Shannon entropy of the energy (amplitude squared) of all bins, over that of equal energies.
+
+    0: all energy in one bin; 1: the same energy in every bin. White noise of random phase has
+    1 - (1 - gamma) / ln(bins), gamma = 0.577 (Euler's constant). nan where there is no energy.
+    Source: Shannon 1948; normalised as in Inouye et al. 1991.
+
+    >>> spectral_entropy(np.array([0.0, 2.0, 0.0, 0.0])), spectral_entropy(np.ones(4))
+    (0.0, 1.0)
+    """
+    energy = np.square(amplitudes)
+    return float(entropy(energy, base=len(energy))) if energy.any() else float("nan")
 
 
 def _ratio(runs: xr.Dataset) -> float:

@@ -111,9 +111,8 @@ def html(judged: Sequence[Row]) -> str:
     names = dict.fromkeys(row["figure"] for row in judged)
     environment = Environment(trim_blocks=True, lstrip_blocks=True, keep_trailing_newline=True)
     environment.filters["text"] = escape
-    functions = {"counts": counts, "named": named, "ours": ours, "share": share}
     return environment.from_string(PAGE).render(
-        functions,
+        {"counts": counts, "named": named, "ours": ours, "share": share},
         judged=judged,
         figures={name: [row for row in judged if row["figure"] == name] for name in names},
         beside=BESIDE,

@@ -8,13 +8,10 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from rom.model import Rom
-from simulate.marching import WITH_RESULT
-from simulate.signals import leading_gap, leading_wear, lobe_count
+from simulate.signals import LOBE_BLUR, blurred, leading_gap, leading_wear, lobe_count
 from simulate.sweeps.peak import peak_of
-from workflow.paper.signals import between_lobes
 
 DIAMETERS = 2  # of the paper's casing, which couple k to k - 2 and k + 2
 OF_PEAK = ("Omega_c", "over_crossing", "amplitude", "at_end", "clear")  # of ``Peak.plain``
@@ -44,17 +41,15 @@ def departure(run: xr.Dataset) -> float | None:
 
 
 def worn_at(runs: xr.Dataset, index: int) -> dict[str, Any]:
-    """Worn profile at the speed with this index."""
+    """Worn profile at the speed with this index.
+
+    ``between_lobes``: shallowest over deepest depth of the blurred profile, 1 for uniform wear, 0
+    without.
+    """
     (wear,) = leading_wear(runs.isel(speed_over_f1=[index])) / leading_gap(runs)
+    smooth = blurred(wear, LOBE_BLUR)
     return {
         "lobes": lobe_count(wear),
         "deepest_wear": float(wear.max()),
-        "between_lobes": between_lobes(wear),
+        "between_lobes": float(smooth.min() / smooth.max()) if smooth.max() > 0 else 0.0,
     }
-
-
-def lobes_over_speed(runs: xr.Dataset) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """Speeds (runs,) with a result, and the number of worn lobes (runs,) there."""
-    ended = runs.isel(speed_over_f1=np.isin(runs["status"].values, WITH_RESULT))
-    lobes = [lobe_count(wear) for wear in leading_wear(ended)]
-    return ended["speed_over_f1"].values, np.array(lobes, int)

@@ -121,7 +121,7 @@ def _claims(judged: Sequence[Row]) -> str:
             "here": "; ".join(ours(row).values()),
             "verdict": row["verdict"],
             **{name: share(row, name) for name in drawn},
-            **{f"on {name}": _other(row, name) for name in others},
+            **{f"on {name}": _cell(row["other"].get(name)) for name in others},
             "figure": f"[{row['figure']}](../figures/{row['figure']}.png)" if row["figure"] else "",
         }
         for row in judged
@@ -135,13 +135,6 @@ def ours(row: Row) -> dict[str, str]:
         name: f"{name}: {Number(value, row['uncertainty'].get(name))}"
         for name, value in row["ours"].items()
     }
-
-
-def _other(row: Row, name: str) -> str:
-    there = row["other"].get(name)
-    if there is None:
-        return ""
-    return "; ".join([there["verdict"], *map(str, map(Number, there["ours"].values()))])
 
 
 def _why(row: Row) -> str:
@@ -177,5 +170,8 @@ def _moved(names: Sequence[str], rows: Sequence[Row]) -> str:
     return table(head, moved) + "\n"
 
 
-def _cell(there: Mapping[str, Any]) -> str:
+def _cell(there: Mapping[str, Any] | None) -> str:
+    """Verdict and numbers of other runs; empty without them."""
+    if there is None:
+        return ""
     return f"{there['verdict']}: {', '.join(map(str, map(Number, there['ours'].values())))}"

@@ -19,15 +19,27 @@ HOLDS = ("reproduced", "reproduced in kind", "calibrated")  # whether numbers ag
 
 
 @dataclass(frozen=True)
-class Value:
-    """Our value, and the range in which it agrees with the paper's."""
+class Judged:
+    """What a verdict depends on."""
 
     name: str
-    ours: float
+    ours: float  # value shown in the table
+    # the paper's number or statement is a datum of ours: that it agrees or holds is no result
+    calibrated: bool = field(default=False, kw_only=True)
+    resolution: float = field(default=0.0, kw_only=True)  # least uncertainty
+
+    @property
+    def label(self) -> str:
+        """Its name, marked if it was calibrated."""
+        return self.name + " (calibrated)" * self.calibrated
+
+
+@dataclass(frozen=True)
+class Value(Judged):
+    """Our value, and the range in which it agrees with the paper's."""
+
     low: float  # low to high: range that agrees with the paper, for its rounding
     high: float
-    calibrated: bool = False  # on the paper's number: agreement is no result
-    resolution: float = 0.0  # least uncertainty
 
     def agrees(self, uncertainty: float) -> bool:
         """Whether our value lies in the range, extended by our uncertainty."""
@@ -35,14 +47,10 @@ class Value:
 
 
 @dataclass(frozen=True)
-class Statement:
+class Statement(Judged):
     """A statement of the paper without a number: it holds if ``margin`` is above 0."""
 
-    name: str
-    ours: float  # value shown in the table
     margin: float
-    resolution: float = 0.0  # least uncertainty
-    calibrated: bool = False  # the paper's statement is a datum of ours: that it holds is no result
 
     def holds(self, uncertainty: float) -> bool | None:
         """Whether it holds; None if the margin is below its uncertainty."""
@@ -53,14 +61,14 @@ def more(
     name: str, ours: float, than: float, resolution: float = 0.0, calibrated: bool = False
 ) -> Statement:
     """The statement that ``ours`` is more than ``than``."""
-    return Statement(name, ours, ours - than, resolution, calibrated)
+    return Statement(name, ours, ours - than, resolution=resolution, calibrated=calibrated)
 
 
 def less(
     name: str, ours: float, than: float, resolution: float = 0.0, calibrated: bool = False
 ) -> Statement:
     """The statement that ``ours`` is less than ``than``."""
-    return Statement(name, ours, than - ours, resolution, calibrated)
+    return Statement(name, ours, than - ours, resolution=resolution, calibrated=calibrated)
 
 
 def equal(name: str, ours: float, to: float, calibrated: bool = False) -> Statement:
@@ -79,7 +87,7 @@ class Finding:
     by_setting: bool = False  # a setting of the scene decides it, on any blade
 
     @property
-    def judged(self) -> tuple[Value | Statement, ...]:
+    def judged(self) -> tuple[Judged, ...]:
         """All statements and values that the verdict depends on."""
         return (*self.statements, *self.values)
 
@@ -161,20 +169,15 @@ def judge(
     uncertainty = uncertainties(finding, repeated.values()) | (like or {})
     return {
         **{key: getattr(claim, key) for key in ("id", "where", "says", "paper", "figure")},
-        "ours": {_label(x): x.ours for x in finding.judged} | {**finding.shown},
-        "uncertainty": {_label(x): uncertainty[x.name] for x in finding.judged} if repeated else {},
+        "ours": {x.label: x.ours for x in finding.judged} | {**finding.shown},
+        "uncertainty": {x.label: uncertainty[x.name] for x in finding.judged} if repeated else {},
         "repeats": sorted(repeated),
-        "tolerance": {_label(v): [v.low, v.high] for v in finding.values},
+        "tolerance": {v.label: [v.low, v.high] for v in finding.values},
         "failed": _failed(finding, uncertainty),
         "verdict": "not judged" if missing else verdict(finding, uncertainty, fitted),
         "by_quantity": uncertainty,
         "because": missing or finding.because,
     }
-
-
-def _label(judged: Value | Statement) -> str:
-    """Name of a value or statement, marked if it was calibrated."""
-    return judged.name + " (calibrated)" * judged.calibrated
 
 
 def _finding(claim: Claim, numbers: Numbers) -> tuple[Finding, str]:
@@ -189,5 +192,5 @@ def _finding(claim: Claim, numbers: Numbers) -> tuple[Finding, str]:
 
 def _failed(finding: Finding, uncertainty: Mapping[str, float]) -> list[str]:
     """Names of values that do not agree, and of statements that do not hold or are undecided."""
-    statements = [_label(s) for s in finding.statements if not s.holds(uncertainty[s.name])]
-    return statements + [_label(v) for v in finding.values if not v.agrees(uncertainty[v.name])]
+    statements = [s.label for s in finding.statements if not s.holds(uncertainty[s.name])]
+    return statements + [v.label for v in finding.values if not v.agrees(uncertainty[v.name])]

@@ -1,6 +1,6 @@
 """Around the casing: its shapes (Fig. 6), and worn depth at the peaks of EO 4 (Fig. 12)."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -15,21 +15,13 @@ from workflow.figures.response import Response
 from workflow.figures.wear import LABEL
 from workflow.paper.published import ENGINE_ORDER
 
-DEGREES = np.linspace(0, 360, 721)
-DRAWN = 0.3  # of the radius, the largest distortion or the gap in the drawing
-CASING = {"color": style.BLACK, "linewidth": 1.4}
-ROUND = {"color": style.GREY, "linestyle": "--", "linewidth": 0.8}
-TIP = {"color": style.BLUE, "linestyle": "-.", "linewidth": 0.9}
-CLOSED = {"facecolor": "#F0C8AA", "edgecolor": style.VERMILLION, "hatch": "////", "linewidth": 0}
-TURN = {"arrowstyle": "-|>", "connectionstyle": "arc3,rad=0.3", "color": style.BLACK}
 LINES = (("-", style.BLACK), ("--", style.VERMILLION))  # E = 1, E = 10, dashed as in the paper
-WITHIN = np.arange(-1, 362)  # deg, one beyond 0 and 360: maxima may lie there
 
 
-def inward(response: Response) -> NDArray[np.float64]:
-    """Distortion d (721,) at DEGREES, over gap g, at the end of the ramp."""
+def inward(response: Response, degrees: NDArray[Any]) -> NDArray[np.float64]:
+    """Distortion d (n,) at angles (n,), deg, over gap g, at the end of the ramp."""
     gap = leading_gap(response.sweep)
-    return response.scene.casing.inward(np.radians(DEGREES), gap) / gap
+    return response.scene.casing.inward(np.radians(degrees), gap) / gap
 
 
 @style.styled
@@ -42,21 +34,25 @@ def shapes(two: Response, two_five: Response) -> Figure:
     panels = drawn.subplot_mosaic(
         "ab;cd", height_ratios=(1.6, 1), per_subplot_kw={"ab": {"projection": "polar"}}
     )
-    distortions = [inward(response) for response in (two, two_five)]
-    scale = DRAWN / max(1.0, np.abs(distortions).max())
+    theta = np.linspace(0, 360, 721)
+    distortions = [inward(response, theta) for response in (two, two_five)]
+    # the largest distortion, or the gap, is 0.3 of the radius
+    scale = 0.3 / max(1.0, np.abs(distortions).max())
     for response, d, above, below in zip((two, two_five), distortions, "ab", "cd", strict=True):
         around, over = panels[above], panels[below]
-        _shape(around, np.radians(DEGREES), d, lambda inward: 1 - scale * inward)
+        heights = np.array([d, 0 * d, 0 * d + 1])
+        _shape(around, np.radians(theta), 1 - scale * heights, d > 1)
         around.set(ylim=(0, 1.02 * (1 + scale * max(0.0, -np.min(distortions)))), yticks=[])
         around.set_xticks([0], ["$\\theta$ = 0"], fontsize=7)
         around.tick_params(pad=0)
         around.spines[:].set_visible(False)
-        around.annotate("", (1.0, 0.5), (0.1, 0.5), arrowprops=TURN)
+        turn = style.ARROW | {"connectionstyle": "arc3,rad=0.3"}
+        around.annotate("", (1.0, 0.5), (0.1, 0.5), arrowprops=turn)
         around.text(0.7, 0.3, "$\\Omega$", ha="center", va="center")
         around.text(-np.pi / 2, 0.2, "exaggerated", fontsize=6.5, ha="center", va="center")
         orders = sorted({harmonic.order for harmonic in response.scene.casing.harmonics})
         over.set_title(f"harmonics {', '.join(map(str, orders))}", fontsize=7)
-        _shape(over, DEGREES, d, np.copy)
+        _shape(over, theta, heights, d > 1)
         over.set(xlabel=CASING_ANGLE, xlim=(0, 360), xticks=range(0, 361, 90))
     panels["d"].sharey(panels["c"])
     panels["d"].tick_params(labelleft=False)
@@ -69,54 +65,52 @@ def shapes(two: Response, two_five: Response) -> Figure:
 def _shape(
     axes: Axes,
     theta: NDArray[np.float64],
-    d: NDArray[np.float64],
-    height: Callable[[NDArray[np.float64]], NDArray[np.float64]],
+    heights: NDArray[np.float64],
+    closed: NDArray[np.bool_],
 ) -> None:
-    """Draw a casing of distortion ``d`` and the tip, at the ``height`` of their way inward."""
-    none, gap = np.zeros_like(d), np.ones_like(d)
-    axes.plot(theta, height(d), label="casing, distorted", **CASING)
-    axes.plot(theta, height(none), label="casing, undistorted", **ROUND)
-    axes.plot(theta, height(gap), label=f"tip of undeformed blade, {style.PLACE}", **TIP)
+    """Draw heights (3, n) of casing, undistorted casing and tip, and where the gap is closed."""
+    casing, undistorted, tip = heights
+    axes.plot(theta, casing, color=style.BLACK, linewidth=1.4, label="casing, distorted")
+    axes.plot(theta, undistorted, "--", color=style.GREY, lw=0.8, label="casing, undistorted")
+    label = f"tip of undeformed blade, {style.PLACE}"
+    axes.plot(theta, tip, "-.", color=style.BLUE, linewidth=0.9, label=label)
     axes.fill_between(
-        theta, height(gap), height(d), d > 1, label="gap closed by the casing alone", **CLOSED
+        theta,
+        tip,
+        casing,
+        closed,
+        label="gap closed by the casing alone",
+        facecolor="#F0C8AA",
+        edgecolor=style.VERMILLION,
+        hatch="////",
+        linewidth=0,
     )
 
 
 @style.styled
 def profiles(sweeps: Sequence[Response]) -> Figure:
-    """Depth over the casing angle at the EO 4 peak, one line for each scene."""
+    """Depth over the casing angle at the EO 4 peak, one line for each scene.
+
+    Without a peak, the legend says so. Dotted: the angles at which the first scene's casing is
+    closest to the blade.
+    """
     drawn, axes = style.subplots(style.SINGLE, 2.6)
     for response, (dashes, colour) in zip(sweeps, LINES, strict=True):
-        _profile(axes, response, linestyle=dashes, color=colour)
-    _nearest(axes, sweeps[0])
-    first, second = sweeps[0].units["length"]
-    axes.set(ylabel=LABEL + first.label, ylim=(0, None))
-    style.beside(axes, second.scale / first.scale, f"worn depth {second.label}")
-    drawn.legend(loc="outside upper center", ncols=1)
-    return drawn
-
-
-def _profile(axes: Axes, response: Response, **line: Any) -> None:
-    """Draw the profile at the peak; without a peak, the legend says so."""
-    peak = response.of_f1(ENGINE_ORDER)
-    if peak is None:
-        axes.plot([], [], label=f"{response.names}: no speed near the peak", **line)
-        return
-    chance = ", not predictable" if response.sensitive("wear")[peak.index] else ""
-    over_casing(
-        axes,
-        response.units["length"][0].scale * response.wear[peak.index],
-        label=f"{response.names}: {speed_text(response, peak)}{chance}",
-        **line,
-    )
-
-
-def _nearest(axes: Axes, response: Response) -> None:
-    """Mark the angles at which the casing is closest to the blade."""
-    inward = response.scene.casing.inward(np.radians(WITHIN), leading_gap(response.sweep))
-    nearest = WITHIN[maxima(inward)[0]]
+        peak = response.of_f1(ENGINE_ORDER)
+        depth, said = np.array([np.nan]), "no speed near the peak"
+        if peak is not None:
+            chance = ", not predictable" if response.sensitive("wear")[peak.index] else ""
+            depth, said = response.wear[peak.index], f"{speed_text(response, peak)}{chance}"
+        over_casing(
+            axes,
+            response.units["length"][0].scale * depth,
+            label=f"{response.names}: {said}",
+            linestyle=dashes,
+            color=colour,
+        )
+    degrees = np.arange(-1, 362)  # one beyond 0 and 360: maxima may lie there
     axes.vlines(
-        nearest,
+        degrees[maxima(inward(sweeps[0], degrees))[0]],
         0,
         1,
         transform=axes.get_xaxis_transform(),
@@ -125,3 +119,8 @@ def _nearest(axes: Axes, response: Response) -> None:
         linewidth=0.8,
         label="casing nearest",
     )
+    first, second = sweeps[0].units["length"]
+    axes.set(ylabel=LABEL + first.label, ylim=(0, None))
+    style.beside(axes, second.scale / first.scale, f"worn depth {second.label}")
+    drawn.legend(loc="outside upper center", ncols=1)
+    return drawn

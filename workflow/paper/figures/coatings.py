@@ -14,7 +14,6 @@ NUMBERS = {  # values of a peak: label, digits after the point
     "amplitude": (rf"$\|Y\|$ {style.OVER_GAP}", 2),
     "Omega_c": (r"$\Omega_c/f_1(0)$", 3),
 }
-COATINGS = {"E": "Young modulus $E$, paper's unit", "K": "plastic modulus $K$"}
 NO_PEAK, RISE, OF_PAPER = "-", "*", "\N{DAGGER}"
 MARKS = (
     f"bold: largest amplitude;  {OF_PAPER}: largest in the paper;  in brackets: not predictable;\n"
@@ -49,10 +48,10 @@ def peaks(grid: Case, order: int = ENGINE_ORDER) -> Figure:
             axes, records, "E", "K", "number", grid["E"], grid["K"][::-1], text="text", bold="bold"
         )
         drawn.colorbar(image, ax=axes, pad=0.01, aspect=15, ticks=MaxNLocator(5), label=label)
-        axes.set_ylabel(COATINGS["K"])
+        axes.set_ylabel("plastic modulus $K$")
     panels[0].set_title(rf"amplitude of the peak of EO {order} at {style.PLACE}, {style.OVER_GAP}")
     said = rf"its critical speed $\Omega_c/f_1(0)$; $f_1$ = {order}$\Omega$ at {crossing:.3f}"
-    panels[1].set(title=said, xlabel=COATINGS["E"])
+    panels[1].set(title=said, xlabel="Young modulus $E$, paper's unit")
     drawn.supxlabel(MARKS, fontsize=7)
     return drawn
 
