@@ -12,6 +12,7 @@ from timeit import repeat
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 from numpy.typing import NDArray
 from scipy.stats import entropy, spearmanr
@@ -26,7 +27,7 @@ from simulate.signals import leading_gap, leading_wear, lobe_count, spectrum
 from simulate.sweeps.crossings import crossing
 from simulate.sweeps.dataset import over_f1, scene_of, statuses
 from simulate.sweeps.peak import peak_of
-from workflow.paper.grid import coating_of, worst
+from workflow.paper.grid import worst
 from workflow.paper.peaks import peak
 from workflow.paper.published import ENGINE_ORDER, WORST
 
@@ -222,28 +223,29 @@ def _ratio(runs: xr.Dataset) -> float:
 
 
 def table(grid: Mapping[str, Any]) -> Numbers:
-    """The grid of E and K: worst case, corners, and rank correlations of Omega_c with E and K."""
-    most, young, plastic = worst(grid), grid["E"], grid["K"]
-    amplitude, speed = (
-        np.array([[_peak_number(coating_of(grid, e, k), name) for k in plastic] for e in young])
-        for name in ("amplitude", "Omega_c")
-    )
-    i, j = young.index(WORST[0]), plastic.index(WORST[1])
+    """The grid of E and K: worst case, corners, and rank correlations of Omega_c with E and K.
+
+    Those of the peaks of EO 4; nan without a peak.
+    """
+    most = worst(grid)
+    peaks = pd.DataFrame({**of, **(of["peaks"]["4"] or {})} for of in grid["cases"])
+    by_coating = peaks.pivot(index="E", columns="K", values=["amplitude", "Omega_c"])
+    amplitude, speed = by_coating["amplitude"], by_coating["Omega_c"]
     return {
         "worst": {"E": most["E"], "K": most["K"], **most["peaks"]["4"]},
-        "paper_worst": amplitude[i, j],
-        "interior_over_ends": {"E": _interior(amplitude[:, j]), "K": _interior(amplitude[i])},
-        "softest": amplitude[0, 0],
-        "stiffest": amplitude[-1, -1],
-        "rank": {"E": _ranks(young, speed.T), "K": _ranks(plastic, speed)},
-        "predictable": sum(_peak_number(case, "status") == "ok" for case in grid["cases"]),
+        "paper_worst": amplitude.at[WORST],
+        "interior_over_ends": {
+            "E": _interior(amplitude[WORST[1]].values),
+            "K": _interior(amplitude.loc[WORST[0]].values),
+        },
+        "softest": amplitude.iloc[0, 0],
+        "stiffest": amplitude.iloc[-1, -1],
+        "rank": {
+            "E": _ranks(speed.index, speed.values.T),
+            "K": _ranks(speed.columns, speed.values),
+        },
+        "predictable": int((peaks["status"] == "ok").sum()),
     }
-
-
-def _peak_number(case: Mapping[str, Any], name: str) -> Any:
-    """The value ``name`` of the EO 4 peak; nan without a peak."""
-    peak = case["peaks"]["4"]
-    return peak[name] if peak else np.nan
 
 
 def _interior(along: NDArray[np.float64]) -> float:

@@ -101,8 +101,10 @@ def claims(
         group: editions(**further[group]) if group in further else {}
         for group in ("repeats", "other", "causes")
     }
-    priors = {"narrow prior": narrow, "wide prior": wide}
-    shares = {name: found["shares"]["holds"] for name, found in priors.items()}
+    shares = {
+        "narrow prior": narrow["shares"]["holds"],
+        "wide prior": wide["shares"]["holds"],
+    }
     return verdicts(CLAIMS, numbers, **groups, shares=shares)
 
 

@@ -173,7 +173,11 @@ def judge(
         "uncertainty": {x.label: uncertainty[x.name] for x in finding.judged} if repeated else {},
         "repeats": sorted(repeated),
         "tolerance": {v.label: [v.low, v.high] for v in finding.values},
-        "failed": _failed(finding, uncertainty),
+        # statements that do not hold or are undecided, values that do not agree
+        "failed": [
+            *(s.label for s in finding.statements if not s.holds(uncertainty[s.name])),
+            *(v.label for v in finding.values if not v.agrees(uncertainty[v.name])),
+        ],
         "verdict": "not judged" if missing else verdict(finding, uncertainty, fitted),
         "by_quantity": uncertainty,
         "because": missing or finding.because,
@@ -188,9 +192,3 @@ def _finding(claim: Claim, numbers: Numbers) -> tuple[Finding, str]:
         return Finding(), f"missing: {missing}"
     except TypeError:
         return Finding(), NO_PEAK
-
-
-def _failed(finding: Finding, uncertainty: Mapping[str, float]) -> list[str]:
-    """Names of values that do not agree, and of statements that do not hold or are undecided."""
-    statements = [s.label for s in finding.statements if not s.holds(uncertainty[s.name])]
-    return statements + [v.label for v in finding.values if not v.agrees(uncertainty[v.name])]

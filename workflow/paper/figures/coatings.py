@@ -50,8 +50,10 @@ def peaks(grid: Case, order: int = ENGINE_ORDER) -> Figure:
         drawn.colorbar(image, ax=axes, pad=0.01, aspect=15, ticks=MaxNLocator(5), label=label)
         axes.set_ylabel("plastic modulus $K$")
     panels[0].set_title(rf"amplitude of the peak of EO {order} at {style.PLACE}, {style.OVER_GAP}")
-    said = rf"its critical speed $\Omega_c/f_1(0)$; $f_1$ = {order}$\Omega$ at {crossing:.3f}"
-    panels[1].set(title=said, xlabel="Young modulus $E$, paper's unit")
+    panels[1].set(
+        title=rf"its critical speed $\Omega_c/f_1(0)$; $f_1$ = {order}$\Omega$ at {crossing:.3f}",
+        xlabel="Young modulus $E$, paper's unit",
+    )
     drawn.supxlabel(MARKS, fontsize=7)
     return drawn
 

@@ -248,8 +248,6 @@ def _name_depths(axes: Axes, shown: Footprint) -> None:
 def _name_profile(axes: Axes, shown: Footprint) -> None:
     """Label p(s) near the lowest point of the profile, towards the middle."""
     along, surface = shown.tip
-    first, last = shown.rods.s.iloc[[0, -1]]
-    lowest = along[surface.argmin()]
-    x = lowest + np.sign(first + last - 2 * lowest) * 0.12 * (last - first)
+    x = 0.75 * along[surface.argmin()] + 0.25 * along.mean()
     ends = (MILLI * x, np.interp(x, along, surface)), (MILLI * x, surface.max())
     style.measure(axes, *ends, "$p(s)$", **DEPTH)

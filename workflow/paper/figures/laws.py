@@ -20,7 +20,6 @@ from workflow.paper.laws import (
     loop,
 )
 
-STRESSES = (0.006, 0.01)  # at the ends of the two loadings of the laws compared, in their unit
 LOW, PART = 0.015, {"offset": (0, 1), "ha": "center", "va": "bottom"}  # arrows along the strains
 THIN = {"color": style.GREY, "linewidth": 0.6}
 
@@ -63,10 +62,10 @@ def _explained(axes: Axes, law: Plastic) -> None:
 
 
 def _compared(axes: Axes) -> None:
-    """Draw the laws loaded to the same stresses: softer laws reach larger strains."""
+    """Draw the laws loaded to the same stresses, in their unit: softer ones are strained more."""
     looks = ("--", style.VERMILLION), ("-", style.GREY), ("-.", style.BLUE), ("-", style.BLACK)
     for law, (dashes, colour) in zip(COMPARED, looks, strict=True):
-        path = loop(law, tuple(strain_at(law, stress) for stress in STRESSES))
+        path = loop(law, (strain_at(law, 0.006), strain_at(law, 0.01)))
         # reloading repeats unloading: not drawn
         strain, stress = (np.delete(branches, RELOADING, axis=0) for branches in path)
         axes.plot(100 * strain.ravel(), stress.ravel(), linestyle=dashes, color=colour)

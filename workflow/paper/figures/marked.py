@@ -37,9 +37,8 @@ def lobes(sweep: Response, part: str) -> Figure:
         **{k: peak.Omega_c for k in orders if (peak := sweep.of_f1(k))},
         **{k: speed for k, speed in CRITICAL[part].items() if k not in CROSSING},
     }
-    points = [
-        *((speed, off) for speed in sweep.speeds[sweep.has_result][[0, -1]]),
-        *((speeds[k], k) for k in orders if k in speeds),
+    spans = [
+        *((speed, speed, off) for speed in sweep.speeds[sweep.has_result][[0, -1]]),
+        *((speeds[k], speeds[k], k) for k in orders if k in speeds),
     ]
-    spans = [(speed, speed, number) for speed, number in points]
     return wear.over_speeds(sweep, Marks("lobes in the paper", spans))
