@@ -287,10 +287,14 @@ def grid():
         (10, 0.45): (
             {"ok": 10},
             grid_peak(0.5, departure=0.02, status="sensitive"),
-            grid_peak(0.3, 0.19),
+            grid_peak(0.3, 0.19, departure=None, status="sensitive"),  # the twin ended otherwise
         ),
         (100, 0.45): ({"ok": 10}, grid_peak(0.7, at_end=True), grid_peak(0.2, departure=None)),
-        (1, 4.55): ({"ok": 7, "inaccurate": 3}, grid_peak(1.2), grid_peak(0.4)),
+        (1, 4.55): (
+            {"ok": 7, "inaccurate": 3},
+            grid_peak(1.2),
+            grid_peak(0.4, departure=1e-6, status="sensitive"),  # the wear parts, not the response
+        ),
         (10, 4.55): ({"ok": 10}, grid_peak(2.0, 0.38), None),
         (100, 4.55): ({"inaccurate": 10}, None, None),
     }
@@ -524,13 +528,6 @@ def loops_of(axes):
     return np.array([line.get_xydata() for line in axes.lines]).reshape(4, -1, 2)
 
 
-def first_loading(axes, *strains):
-    """Stresses of the explained law there, before it is unloaded."""
-    strain, stress = axes.lines[0].get_data()
-    top = strain.argmax() + 1
-    return np.interp(strains, strain[:top], stress[:top])
-
-
 def distances(axes):
     """From the undistorted casing inwards: of the casing, and of the tip."""
     casing, around, tip = (line.get_ydata() for line in axes.lines[:3])
@@ -565,10 +562,6 @@ NUMBERS = {  # by figure and what is shown: the numbers that are drawn, and what
     ("fig05", "stresses named"): (
         lambda drawn: drawn.axes[0].get_yticks(),
         [0, 0.15, 0.15 + 0.45 * ALPHA],
-    ),
-    ("fig05", "stresses of the first loading"): (
-        lambda drawn: first_loading(drawn.axes[0], 0.1, 0.15, 0.5),
-        [0.1, 0.15, 0.15 + 0.45 * ALPHA],
     ),
     ("fig05", "largest stress of compared laws"): (
         lambda drawn: loops_of(drawn.axes[1])[:, :, 1].max(axis=1),
@@ -887,7 +880,7 @@ def words(axes):
 
 TEXTS = {  # of the cells of the grid: by rows, and which are bold
     "fig13": (["1.20", "2.00†", "-", "1.00", "(0.50)", "0.70*"], [(1, 0)]),
-    "fig13-k6": (["0.40", "-", "-", "0.90", "0.30", "0.20"], [(0, 1)]),
+    "fig13-k6": (["0.40", "-", "-", "0.90", "(0.30)", "0.20"], [(0, 1)]),
 }
 
 
@@ -901,20 +894,6 @@ def test_a_grid_without_any_peak_is_drawn(grid):
     grid["cases"] = [case | {"peaks": {"4": None, "6": None}} for case in grid["cases"]]
     found, _ = words(coatings.peaks(grid).axes[0])
     assert {*found.values()} == {"-"}
-
-
-@pytest.mark.parametrize(
-    ("departure", "status", "sensitive"),
-    [
-        (0.02, "sensitive", True),
-        (1e-6, "sensitive", False),  # the wear parts, the response does not
-        (None, "sensitive", True),  # the twin ended otherwise
-        (None, "ok", False),  # no twin was computed
-    ],
-)
-def test_peaks_that_cannot_be_predicted(departure, status, sensitive):
-    peak = grid_peak(1.0, departure=departure, status=status)
-    assert coatings.is_sensitive(peak) is sensitive
 
 
 @pytest.mark.parametrize("status", ["sensitive", "unstable"])

@@ -325,14 +325,6 @@ def test_costs_are_summed_over_the_jobs_in_the_folders_of_a_target(tmp_path):
     assert "| other | not run |  |  |  |" in text
 
 
-def test_lobes_away_from_the_resonances_and_at_them(coarse_rom):
-    """Lobes at the ends and in between, and orders with k lobes near their crossing."""
-    speeds = np.array([0.1, 0.19, 0.26, 0.34, 0.4])
-    lobes = np.array([2, 6, 2, 4, 2])
-    assert measure._orders_seen(coarse_rom, speeds, lambda k: lobes == k) == [4, 6]
-    assert measure._orders_seen(coarse_rom, speeds, lambda k: np.zeros(5) == k) == []
-
-
 def test_an_order_is_in_the_wear_where_its_harmonic_exceeds_those_beside_it(coarse_rom):
     speeds = np.array([0.1, 0.19, 0.26, 0.34, 0.4])
     wear = np.array([1 + np.cos(2 * THETA) + 0.1 * np.cos(k * THETA) for k in (4, 6, 8, 4, 6)])

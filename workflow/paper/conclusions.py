@@ -62,16 +62,18 @@ def text(claims: Sequence[Row], identified: Mapping[str, Any], long: Mapping[str
     compared = [row for row in claims if row["verdict"] != "not comparable"]
     groups = {name: [_line(row) for row in compared if _group(row) == name] for name in GROUPS}
     draws, size = identified["shares"]["draws"], identified["fits"][FIT][DATA]["effective"]
-    introduction = INTRODUCTION.format(
-        other=" and ".join(named(claims, "other")) or "no other",
-        draws=draws,
-        size=size,
-        share=100 * NEARLY_ALL,
-        error=100 * sqrt(NEARLY_ALL * (1 - NEARLY_ALL) * (1 / draws + 1 / size)),
-    )
     return "\n\n".join(
         [
-            fill(introduction, WIDTH),
+            fill(
+                INTRODUCTION.format(
+                    other=" and ".join(named(claims, "other")) or "no other",
+                    draws=draws,
+                    size=size,
+                    share=100 * NEARLY_ALL,
+                    error=100 * sqrt(NEARLY_ALL * (1 - NEARLY_ALL) * (1 / draws + 1 / size)),
+                ),
+                WIDTH,
+            ),
             *(
                 "\n".join([fill(GROUPS[name], WIDTH), "", *lines])
                 for name, lines in groups.items()

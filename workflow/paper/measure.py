@@ -42,8 +42,11 @@ type Numbers = dict[str, Any]
 def model(rom: Rom, check: RomCheck, paper: Rom, paper_check: RomCheck, nonlinear: Rom) -> Numbers:
     """Reduced models: size and error of the paper's, error of ours, K2, frequencies, crossings.
 
-    ``nonlinear``: one whose K2 is not zero, as it is with linear prestress.
+    And u_t over u_r at xi = 1/16 in mode 1 at Omega_m. ``nonlinear``: one whose K2 is not zero, as
+    it is with linear prestress.
     """
+    mode = paper.modes(paper.Omega_m)[1][:, 0]  # the first, at Omega_m
+    tangential, radial = (paper.rows([LEADING], letter) @ mode for letter in "tr")
     return {
         "model": {
             "n": paper.n,
@@ -54,7 +57,7 @@ def model(rom: Rom, check: RomCheck, paper: Rom, paper_check: RomCheck, nonlinea
             "K2": {"printed": _residual(nonlinear, 3 / 4), "4/3": _residual(nonlinear, 4 / 3)},
             "frequencies": (check.full[0, :5] / check.full[0, 0]).tolist(),
             "crossings": {str(k): crossing(rom, k) for k in (4, 5, 6)},
-            "tangential_over_radial": direction(paper),
+            "tangential_over_radial": float(tangential[0] / radial[0]),
         }
     }
 
@@ -74,13 +77,6 @@ def _residual(rom: Rom, factor: float) -> float:
         for Omega, K in zip(speeds, (rest, half, full), strict=True)
     )
     return float(max(misses))
-
-
-def direction(rom: Rom) -> float:
-    """u_t over u_r at xi = 1/16 in mode 1 at Omega_m."""
-    mode = rom.modes(rom.Omega_m)[1][:, 0]
-    tangential, radial = (rom.rows([LEADING], letter) @ mode for letter in "tr")
-    return float(tangential[0] / radial[0])
 
 
 def coating(runs: xr.Dataset, rom: Rom) -> Numbers:

@@ -127,5 +127,4 @@ def _parts(rows: Sequence[ExperimentRow]) -> Numbers:
 def _long(rows: Sequence[ExperimentRow], cases: Sequence[Mapping[str, Any]] | None) -> Numbers:
     """Growth, and the peak of the bare casing, where there is one."""
     bare = [row["numbers"] for row in rows if row["scene"] == "rigid"]
-    complete = bare and cases is not None
-    return {"long": measure.long_run(bare[0], cases)} if complete else {}
+    return {"long": measure.long_run(bare[0], cases)} if bare and cases is not None else {}

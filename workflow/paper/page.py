@@ -101,11 +101,15 @@ def claims(
         group: editions(**further[group]) if group in further else {}
         for group in ("repeats", "other", "causes")
     }
-    shares = {
-        "narrow prior": narrow["shares"]["holds"],
-        "wide prior": wide["shares"]["holds"],
-    }
-    return verdicts(CLAIMS, numbers, **groups, shares=shares)
+    return verdicts(
+        CLAIMS,
+        numbers,
+        **groups,
+        shares={
+            "narrow prior": narrow["shares"]["holds"],
+            "wide prior": wide["shares"]["holds"],
+        },
+    )
 
 
 def html(judged: Sequence[Row]) -> str:

@@ -13,13 +13,13 @@ from rom.model import Rom
 from simulate.signals import LOBE_BLUR, blurred, leading_gap, leading_wear, lobe_count
 from simulate.sweeps.peak import peak_of
 
-DIAMETERS = 2  # of the paper's casing, which couple k to k - 2 and k + 2
 OF_PEAK = ("Omega_c", "over_crossing", "amplitude", "at_end", "clear")  # of ``Peak.plain``
 
 
 def peak(runs: xr.Dataset, rom: Rom, k: int) -> dict[str, Any] | None:
     """The peak along engine order ``k``; None if no run near it has a result."""
-    main = peak_of(runs, rom, k, harmonics=[DIAMETERS])
+    # the two diameters of the paper's casing couple k to k - 2 and k + 2
+    main = peak_of(runs, rom, k, harmonics=[2])
     if main is None:
         return None
     run, values = runs.isel(speed_over_f1=main.index), main.plain()

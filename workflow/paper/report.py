@@ -64,15 +64,20 @@ def counts(judged: Sequence[Row]) -> str:
 
 def markdown(judged: Sequence[Row]) -> str:
     """The whole report."""
-    parts = [
-        f"# The paper's claims\n\n{counts(judged)}, of {len(judged)}.\n",
-        HEAD,
-        _claims(judged),
-        "## Claims that differ or are undecided, and choices of ours that reverse them\n",
-        *(_why(row) for row in judged if row["verdict"] in ("differs", "undecided", "not judged")),
-        _causes(judged),
-    ]
-    return "\n".join(part for part in parts if part)
+    return "\n".join(
+        [
+            f"# The paper's claims\n\n{counts(judged)}, of {len(judged)}.\n",
+            HEAD,
+            _claims(judged),
+            "## Claims that differ or are undecided, and choices of ours that reverse them\n",
+            *(
+                _why(row)
+                for row in judged
+                if row["verdict"] in ("differs", "undecided", "not judged")
+            ),
+            *_causes(judged),
+        ]
+    )
 
 
 def short(judged: Sequence[Row]) -> str:
@@ -153,15 +158,13 @@ def _turned(row: Row) -> str:
     return f" None of {tried} choices, changed one at a time, reverses it{but}." if tried else ""
 
 
-def _causes(judged: Sequence[Row]) -> str:
+def _causes(judged: Sequence[Row]) -> list[str]:
     """Influence of each choice: a table for each set of claims decided by the same runs."""
     groups = dict.fromkeys(tuple(row["causes"]) for row in judged if row["causes"])
-    if not groups:
-        return ""
-    tables = (
+    tables = [
         _moved(names, [row for row in judged if tuple(row["causes"]) == names]) for names in groups
-    )
-    return "\n".join(["\n## Choices of ours, changed one at a time\n", *tables])
+    ]
+    return ["\n## Choices of ours, changed one at a time\n", *tables] if tables else []
 
 
 def _moved(names: Sequence[str], rows: Sequence[Row]) -> str:

@@ -237,12 +237,21 @@ def _name_depths(axes: Axes, shown: Footprint) -> None:
     """Label the worn depth and the elastic compression of the rods."""
     covered = np.flatnonzero(shown.rods.part)
     before, last = shown.rods.iloc[covered[0] - 2], shown.rods.iloc[covered[-1]]
-    x = MILLI * before.s
-    style.measure(axes, (x, before.unworn), (x, before.worn), "worn depth", **DEPTH)
-    x = MILLI * (shown.tip[0, -1] + 0.15 * shown.pitch)
-    style.measure(axes, (x, last.worn), (x, last.end), "elastic", **DEPTH)
-    cut = f"rods cut off:\n$l$ = {shown.thickness / shown.gap:.0f} $g$"
-    axes.text(0.02, 0.95, cut, transform=axes.transAxes, va="top", fontsize=7, bbox=BEHIND)
+    depths = (
+        ("worn depth", before.s, before.unworn, before.worn),
+        ("elastic", shown.tip[0, -1] + 0.15 * shown.pitch, last.worn, last.end),
+    )
+    for name, s, low, high in depths:
+        style.measure(axes, (MILLI * s, low), (MILLI * s, high), name, **DEPTH)
+    axes.text(
+        0.02,
+        0.95,
+        f"rods cut off:\n$l$ = {shown.thickness / shown.gap:.0f} $g$",
+        transform=axes.transAxes,
+        va="top",
+        fontsize=7,
+        bbox=BEHIND,
+    )
 
 
 def _name_profile(axes: Axes, shown: Footprint) -> None:

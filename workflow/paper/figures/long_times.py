@@ -22,10 +22,6 @@ LABELS = {
     "amplitude": f"amplitude, EO {ENGINE_ORDER}, {style.OVER_GAP}",
     "wear": f"deepest wear {style.OVER_GAP}",
 }
-GROWTH = {
-    "rounds": "revolutions, end of a window of ten",
-    "amplitude": rf"$\|Y\|$ at {style.PLACE}, {style.OVER_GAP}",
-}
 PAPER_ROUNDS = 20
 
 
@@ -94,7 +90,16 @@ def growth(worst: dict[str, Any]) -> Figure:
         for name, case in (by_name | {"bare rigid casing": rigid}).items()
         for revolutions, amplitude in zip(case["rounds"], case["amplitude"], strict=True)
     ]
-    drawn = lines.draw(records, "rounds", "amplitude", line="case", labels=GROWTH)
+    drawn = lines.draw(
+        records,
+        "rounds",
+        "amplitude",
+        line="case",
+        labels={
+            "rounds": "revolutions, end of a window of ten",
+            "amplitude": rf"$\|Y\|$ at {style.PLACE}, {style.OVER_GAP}",
+        },
+    )
     (axes,) = drawn.axes
     axes.margins(0.03, 0.15)
     axes.set(xlim=(0, None), ylim=(0, None))

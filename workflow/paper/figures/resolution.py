@@ -33,8 +33,7 @@ def wear(coarse: Response, fine: Response) -> Figure:
         for run, depth, look in zip(runs, depths, LOOKS[::2], strict=True):
             over_casing(axes, depth, label=_rods(run), **look)
         on_finest = [on_rods(depth[None], len(depths[-1]))[0] for depth in depths]
-        both = all(run.has_result[i] for run in runs)
-        said = _distances(on_finest) if both else "no result"
+        said = _distances(on_finest) if all(run.has_result[i] for run in runs) else "no result"
         axes.set(title=f"{_title(runs, i)}\n{said}", ylim=(0, None))
         axes.label_outer()
     drawn.supylabel(f"{style.WORN}, {style.OVER_GAP}", fontsize=8)
