@@ -257,6 +257,6 @@ def _name_depths(axes: Axes, shown: Footprint) -> None:
 def _name_profile(axes: Axes, shown: Footprint) -> None:
     """Label p(s) near the lowest point of the profile, towards the middle."""
     along, surface = shown.tip
-    x = 0.75 * along[surface.argmin()] + 0.25 * along.mean()
+    x = (along[surface.argmin()] + along.mean()) / 2
     ends = (MILLI * x, np.interp(x, along, surface)), (MILLI * x, surface.max())
     style.measure(axes, *ends, "$p(s)$", **DEPTH)
