@@ -9,7 +9,7 @@ from scipy.sparse import csr_matrix, eye_array, kron
 
 from fem.interface_operator import on_patches
 from fem.matrix_files import FileMatrix
-from geometry.base import MeshError, about
+from geometry.base import MeshError, about, require
 from geometry.blade import MeshFile
 from geometry.file_physics import UNITS
 from geometry.frame import rotation, to_blade
@@ -66,12 +66,14 @@ class Deck(NamedTuple):
         n, columns = file.A.shape
         root = self.clamped if n > 3 * len(self.numbers) else self.clamped[:0]
         rows = _three_of(np.sort(np.append(self.numbers, root)))
-        if not n == columns == len(rows):
-            raise MeshError(
+        require(
+            (
+                n == columns == len(rows),
                 f"{n} rows and {columns} columns, needs {len(rows)} each: rows that the file does "
                 "not name must be x, y, z of each node by its number (the row of `nodes`); those "
-                "of the root may be left out"
+                "of the root may be left out",
             )
+        )
         return rows
 
 

@@ -10,7 +10,7 @@ from scipy.sparse import csr_matrix, eye_array
 from fem.deck import Deck, deck_of
 from fem.interface_operator import directions
 from fem.matrices import CODE, Matrices
-from fem.matrix_files import ElsewhereError, read_matrix, require
+from fem.matrix_files import ElsewhereError, read_matrix
 from geometry.base import (
     Provenance,
     about,
@@ -18,6 +18,7 @@ from geometry.base import (
     csv_rows,
     known,
     numbers,
+    require,
     shifted,
 )
 from geometry.elsewhere import OFF_LINE, SYMMETRIC, FullMatrices, MatricesElsewhere, tip_checks
@@ -106,12 +107,13 @@ def _interface(
         return deck.interface(patches, across)
     S, needed = read_matrix(folder / files.S, "S").A, (3 * patches, 3 * len(deck.numbers))
     require(
-        folder / files.S,
         (
             S.shape == needed,
             f"{S.shape[0]} rows and {S.shape[1]} columns, needs {needed[0]} and {needed[1]}: three "
             "for each of `patches` and `nodes`",
         ),
+        kind=ElsewhereError,
+        file=folder / files.S,
     )
     return S, _camber(_table(folder / known(files.camber, "camber"), XYZ)), np.empty((2, 0))
 
@@ -119,15 +121,22 @@ def _interface(
 def _check(fom: Matrices, files: FullMatrices, folder: Path) -> None:
     """Check that the matrices are those of a blade in SI, in its frame, at its nodes."""
     mesh = files.mesh_file.file if files.mesh_file else known(files.nodes, "nodes")
-    require(folder / (files.camber or mesh), *tip_checks(fom.camber, fom.span, fom.top_speed))
-    measures = [
+    require(
+        *tip_checks(fom.camber, fom.span, fom.top_speed),
+        kind=ElsewhereError,
+        file=folder / (files.camber or mesh),
+    )
+    for file, what, value, (least, most), remedy in (
         *_of_mass(fom, files),
         *_of_stiffness(fom, files),
         *(_of_operator(fom, files.S) if files.S else ()),
-    ]
-    for file, what, value, (least, most), remedy in measures:
+    ):
         fault = f"{what}: {value:.3g}, allowed {least:g} to {most:g}: {remedy}"
-        require(folder / file, (least <= value <= most, fault))
+        require(
+            (least <= value <= most, fault),
+            kind=ElsewhereError,
+            file=folder / file,
+        )
 
 
 def _of_mass(fom: Matrices, files: FullMatrices) -> list[Measure]:
@@ -264,7 +273,6 @@ def _symmetric(path: Path, letter: str, deck: Deck) -> csr_matrix:
     diagonal = A.diagonal()
     worst = int(np.argmax(~((diagonal > 0) & (diagonal < LARGEST))))
     require(
-        path,
         (
             asymmetry <= SYMMETRIC,
             f"not symmetric, by {asymmetry:.2g} of its largest entry; allowed {SYMMETRIC:g} (a "
@@ -276,6 +284,8 @@ def _symmetric(path: Path, letter: str, deck: Deck) -> csr_matrix:
             f"has mass and stiffness, and only those that are not clamped belong to it: check node "
             f"{deck.numbers[worst // 3]}, direction {worst % 3 + 1}",
         ),
+        kind=ElsewhereError,
+        file=path,
     )
     return csr_matrix((A + A.T) / 2)
 
@@ -284,7 +294,11 @@ def _table(path: Path, columns: Sequence[str]) -> NDArray[np.float64]:
     """Numbers (rows, columns) of a CSV file without a header; lines with # are comments."""
     with about(path, ElsewhereError):
         rows = [numbers(cells, columns, line) for line, cells in csv_rows(path)]
-    require(path, (len(rows) > 0, f"has no row of {', '.join(columns)}"))
+    require(
+        (len(rows) > 0, f"has no row of {', '.join(columns)}"),
+        kind=ElsewhereError,
+        file=path,
+    )
     return np.array(rows)
 
 
@@ -293,7 +307,6 @@ def _facets(path: Path, nodes: int) -> NDArray[np.int64]:
     values = _table(path, [f"node {i}" for i in range(1, 7)])
     facets = values.astype(int)
     require(
-        path,
         (
             np.all(facets == values) and facets.min() >= 1 and facets.max() <= nodes,
             f"needs whole numbers from 1 to {nodes}, the rows of `nodes`",
@@ -302,6 +315,8 @@ def _facets(path: Path, nodes: int) -> NDArray[np.int64]:
             len(np.unique(np.sort(facets), axis=0)) == len(facets),
             "the same facet in two rows; allowed one: take one of them out",
         ),
+        kind=ElsewhereError,
+        file=path,
     )
     return facets - 1
 

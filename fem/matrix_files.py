@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 from scipy.io import mminfo, mmread
 from scipy.sparse import csr_matrix, diags, load_npz
 
-from geometry.base import UserError, about, number, read_text, require_file
-from geometry.elsewhere import Check, failed
+from geometry.base import MeshError, UserError, about, number, read_text, require, require_file
 
 DIRECTIONS = 100  # more than a node has
 
@@ -31,18 +30,6 @@ class FileMatrix(NamedTuple):
     rows: NDArray[np.int64] | None = None  # (n, 2), number of node and direction from 1, if known
 
 
-def require(path: Path, *checks: Check) -> None:
-    """Refuse the file at ``path`` by the first fault whose check does not hold.
-
-    Raises
-    ------
-    ElsewhereError
-        When there is one.
-    """
-    if faults := failed(*checks):
-        raise ElsewhereError(faults[0], file=path)
-
-
 def read_matrix(path: Path, letter: str) -> FileMatrix:
     """The matrix at ``path``; of several in a file that with the ``letter``, M or K.
 
@@ -51,37 +38,31 @@ def read_matrix(path: Path, letter: str) -> FileMatrix:
     ElsewhereError
         When it cannot be read whole, or holds other values than finite real numbers.
     """
-    require(
-        path,
-        (
-            path.suffix.lower() != ".sub",
-            "a superelement's rows are no displacements of nodes: give the full matrices (.full), "
-            "or reduce by one basis at all speeds (`reduced_model`)",
-        ),
-    )
     with about(path, ElsewhereError):
+        require(
+            (
+                path.suffix.lower() != ".sub",
+                "a superelement's rows are no displacements of nodes: give the full matrices "
+                "(.full), or reduce by one basis at all speeds (`reduced_model`)",
+            )
+        )
         require_file(path, READERS)
-    try:
-        matrix = READERS[path.suffix.lower()](path, letter)
-    except ElsewhereError as error:
-        raise error.within(path) from None
-    except Exception as error:  # readers raise various exceptions for damaged files
-        raise ElsewhereError(
-            f"cannot be read as {path.suffix} ({error!r}): is it cut short?", file=path
-        ) from None
-    require(
-        path,
-        (
-            not np.imag(matrix.A.data).any(),
-            "is complex: give the real part alone, as of a model without structural damping",
-        ),
-        (np.isfinite(matrix.A.data).all(), "holds values that are not finite"),
-    )
+        try:
+            matrix = READERS[path.suffix.lower()](path, letter)
+        except (MeshError, ElsewhereError):
+            raise
+        except Exception as error:  # readers raise various exceptions for damaged files
+            raise MeshError(
+                f"cannot be read as {path.suffix} ({error!r}): is it cut short?"
+            ) from None
+        require(
+            (
+                not np.imag(matrix.A.data).any(),
+                "is complex: give the real part alone, as of a model without structural damping",
+            ),
+            (np.isfinite(matrix.A.data).all(), "holds values that are not finite"),
+        )
     return matrix._replace(A=csr_matrix(matrix.A.real.astype(float)))
-
-
-def _npz(path: Path, letter: str) -> FileMatrix:
-    return FileMatrix(csr_matrix(load_npz(path)))
 
 
 def _mtx(path: Path, letter: str) -> FileMatrix:
@@ -95,7 +76,6 @@ def _mtx(path: Path, letter: str) -> FileMatrix:
         i, j = places
         return FileMatrix(_whole(_placed(i, j, values), len(values)))
     require(
-        path,
         (
             len(places) == 4,
             f"{len(places) + 1} numbers a line, needs 5: write FORMAT=MATRIX INPUT",
@@ -108,7 +88,6 @@ def _market(path: Path) -> csr_matrix:
     """A matrix of Matrix Market; ``mmread`` would end a number at a D or a comma, unnoticed."""
     rows, columns, entries, layout, kind, symmetry = mminfo(path)
     require(
-        path,
         (kind != "pattern", "says which entries there are, not their values: write them too"),
         (symmetry in ("general", "symmetric"), f"is {symmetry}, where M and K are symmetric"),
     )
@@ -121,7 +100,6 @@ def _market(path: Path) -> csr_matrix:
         return csr_matrix(mmread(BytesIO(text)))
     i, j, *values = _columns(path, comments="%", skip=size)
     require(
-        path,
         (len(i) == entries, f"has {len(i)} entries, its head says {entries}"),
         (
             len(values) == 1 + (kind == "complex"),
@@ -138,11 +116,12 @@ def _calculix(path: Path, letter: str) -> FileMatrix:
     with about(dof, ElsewhereError):
         names = read_text(dof, most=None).split()
     columns = _columns(path)
-    require(path, (len(columns) == 3, f"{len(columns)} numbers a line, needs 3"))
+    require(
+        (len(columns) == 3, f"{len(columns)} numbers a line, needs 3"),
+    )
     i, j, values = columns
     A = _whole(_placed(i, j, values), len(values))
     require(
-        path,
         (
             A.shape[0] == len(names) == len(set(names)),
             f"{A.shape[0]} rows, {dof.name} has {len(names)}: is it of another job, or cut short?",
@@ -164,7 +143,6 @@ def _dmig(path: Path, letter: str) -> FileMatrix:
     # K4 is structural damping
     names = {name for name, *_ in entries if name.startswith(letter) and name[1:2] != "4"}
     require(
-        path,
         (
             len(names) == 1,
             f"needs one matrix DMIG* whose name begins with {letter}, has {len(names)}",
@@ -182,14 +160,14 @@ def _full(path: Path, letter: str) -> FileMatrix:
     try:
         from ansys.mapdl.reader import read_binary  # pyright: ignore[reportMissingImports]  optional
     except ImportError:
-        raise ElsewhereError("needs ansys-mapdl-reader: see fem/matrices.md", file=path) from None
+        raise MeshError("needs ansys-mapdl-reader: see fem/matrices.md") from None
     rows, K, M = read_binary(str(path)).load_km(sort=False)
     return FileMatrix(_whole(csr_matrix({"M": M, "K": K}[letter])), np.add(rows, [0, 1]))
 
 
 READERS: dict[str, Callable[[Path, str], FileMatrix]] = {
     ".mtx": _mtx,
-    ".npz": _npz,
+    ".npz": lambda path, letter: FileMatrix(csr_matrix(load_npz(path))),
     ".sti": _calculix,
     ".mas": _calculix,
     ".pch": _dmig,
@@ -202,9 +180,12 @@ def _columns(
 ) -> NDArray[np.float64]:
     """Columns (k, n) of numbers; the last line must have its end, else a number may lack digits."""
     text = _of_fortran(path)
-    require(path, (text.endswith(b"\n"), "its last line has no end: is the file cut short?"))
-    lines = BytesIO(text)
-    return np.loadtxt(lines, delimiter=delimiter, comments=comments, ndmin=2, skiprows=skip).T
+    require(
+        (text.endswith(b"\n"), "its last line has no end: is the file cut short?"),
+    )
+    return np.loadtxt(
+        BytesIO(text), delimiter=delimiter, comments=comments, ndmin=2, skiprows=skip
+    ).T
 
 
 def _of_fortran(path: Path) -> bytes:
@@ -217,10 +198,13 @@ def _placed(
 ) -> csr_matrix:
     """A matrix of ``values`` (n,) in rows ``i`` and columns ``j``, from 1."""
     places = np.array([i, j])
-    if places.min() < 1 or np.any(places != np.round(places)):
-        raise ElsewhereError(
-            f"an entry is in row or column {places.min():g}: they are whole numbers, counted from 1"
-        )
+    require(
+        (
+            places.min() >= 1 and np.all(places == np.round(places)),
+            f"an entry is in row or column {places.min():g}: they are whole numbers, counted from "
+            "1",
+        ),
+    )
     return csr_matrix((values, places.astype(int) - 1), shape)
 
 
@@ -237,8 +221,9 @@ def _whole(A: csr_matrix, lines: int = 0) -> csr_matrix:
 
     Entries of one place are summed in ``A``; so many ``lines`` must each have a place of its own.
     """
-    if A.nnz < lines:
-        raise ElsewhereError("names an entry twice: one matrix a file, of one step or subcase")
+    require(
+        (A.nnz >= lines, "names an entry twice: one matrix a file, of one step or subcase"),
+    )
     places = A.astype(bool)
     both = places.multiply(places.T).nnz - np.count_nonzero(A.diagonal())
     return A if both else csr_matrix(A + A.T - diags(A.diagonal()))

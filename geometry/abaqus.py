@@ -12,11 +12,11 @@ from pathlib import Path
 
 import numpy as np
 
-from geometry.base import MeshError, number, shown
+from geometry.base import MeshError, number, require, shown
 from geometry.cards import Card, read_cards
 from geometry.deck_physics import physics_of
-from geometry.file_mesh import FileMesh, Solids, as_tetrahedra
-from geometry.split import KINDS, NODES
+from geometry.file_mesh import FileMesh, as_tetrahedra
+from geometry.split import KINDS, NODES, Block
 
 SOLID = re.compile(r"(?:C3D|CTETRA|CHEXA|CPENTA|CPYRAM)(\d+)")
 # shells and the like
@@ -61,10 +61,12 @@ def read_deck(path: Path) -> FileMesh:
     mesh = mesh_of(cards, whole)
     nodes, unused = len(mesh.points), len(mesh.points) - len(np.unique(mesh.cells))
     # a deck has no end, and may lack its last elements
-    if cards[-1].keyword == "ELEMENT" and unused > MOST_UNUSED * nodes:
-        raise MeshError(
-            f"{unused} of {nodes} nodes belong to no solid cell: is the file cut short?"
+    require(
+        (
+            cards[-1].keyword != "ELEMENT" or unused <= MOST_UNUSED * nodes,
+            f"{unused} of {nodes} nodes belong to no solid cell: is the file cut short?",
         )
+    )
     return mesh
 
 
@@ -81,11 +83,16 @@ def mesh_of(cards: list[Card], whole: list[Card]) -> FileMesh:
     nodes = _nodes(cards)
     elements = _elements(cards, nodes)
     element_sets = _sets(cards, "ELSET", "ELEMENT", elements, {})
-    element_nodes = {
-        name: [node for i in numbers for node in elements[i][1]]
-        for name, numbers in element_sets.items()
-    }
-    node_sets = _sets(cards, "NSET", "NODE", nodes, element_nodes)
+    node_sets = _sets(
+        cards,
+        "NSET",
+        "NODE",
+        nodes,
+        {
+            name: [node for i in numbers for node in elements[i][1]]
+            for name, numbers in element_sets.items()
+        },
+    )
     faces = {name: _shells(numbers, elements) for name, numbers in element_sets.items()}
     for card in (card for card in cards if card.keyword == "SURFACE"):
         if card.options.get("TYPE") == "NODE":
@@ -95,15 +102,15 @@ def mesh_of(cards: list[Card], whole: list[Card]) -> FileMesh:
             faces[card.option("NAME")] = _surface(card, elements, element_sets)
     row = {number: i for i, number in enumerate(nodes)}
     rows = np.vectorize(row.__getitem__, otypes=[int])
-    kinds = sorted({kind for kind, _ in elements.values() if SOLID.match(kind)})
     numbers_by_kind = {
-        kind: [i for i, (its_kind, _) in elements.items() if its_kind == kind] for kind in kinds
+        kind: [i for i, (its_kind, _) in elements.items() if its_kind == kind]
+        for kind in sorted({kind for kind, _ in elements.values() if SOLID.match(kind)})
     }
     return as_tetrahedra(
         np.array(list(nodes.values()), dtype=float),
         np.array(list(nodes)),
         [
-            Solids(kind, rows([elements[i][1] for i in numbers]), np.array(numbers))
+            Block(rows([elements[i][1] for i in numbers]), np.array(numbers), kind)
             for kind, numbers in numbers_by_kind.items()
         ],
         {name: rows(numbers) for name, numbers in node_sets.items()},
@@ -181,8 +188,12 @@ def _check(cards: list[Card]) -> None:
                 line=card.line,
             )
     moved = any(card.keyword == "INSTANCE" and card.rows for card in cards)
-    if keywords.count("PART") > 1 or keywords.count("INSTANCE") > 1 or moved:
-        raise MeshError("has several parts or a moved instance: export a deck without parts")
+    require(
+        (
+            keywords.count("PART") < 2 and keywords.count("INSTANCE") < 2 and not moved,
+            "has several parts or a moved instance: export a deck without parts",
+        )
+    )
 
 
 def _numbering(card: Card) -> list[list[int]]:
@@ -226,8 +237,8 @@ def _sets(
     """
     sets: _Sets = {}
     instances: dict[str, str | None] = {}
-    cards_of_sets = (card for card in cards if card.keyword in (keyword, definition))
-    for card in (card for card in cards_of_sets if card.options.get(keyword)):
+    named = (card for card in cards if card.options.get(keyword))
+    for card in (card for card in named if card.keyword in (keyword, definition)):
         if card.keyword == "NODE":
             numbers = [_whole(row[0], line) for line, row in card.rows]
         elif card.keyword == "ELEMENT":
@@ -258,13 +269,17 @@ def _members(card: Card, sets: _Sets, defined: Collection[int]) -> list[int]:
 def _range(line: int, row: list[str], defined: Collection[int]) -> list[int]:
     """Numbers of a row of a generated set: first, last, and step; some may not be defined."""
     values = [_whole(value, line) for value in row if value]
-    if len(values) < 2 or 0 in values[2:]:
-        raise MeshError("a generated set needs first, last and step", line=line)
+    require(
+        (
+            len(values) > 1 and 0 not in values[2:],
+            "a generated set needs first, last and step",
+        ),
+        line=line,
+    )
     first, last, *by = values[:3]
     given = range(first, last + 1, *by)
     numbers = [i for i in min(given, defined, key=len) if i in given and i in defined]
-    if not numbers:
-        raise MeshError(f"none of {first} to {last} is defined: correct the set", line=line)
+    require((numbers, f"none of {first} to {last} is defined: correct the set"), line=line)
     return numbers
 
 
@@ -306,8 +321,11 @@ def _side(nodes: list[int], side: str, line: int) -> list[int]:
     """Corner nodes of a side of a solid element, as ``S1``."""
     sides = KINDS[NODES[len(nodes)][0]].faces
     named = {f"S{i}": face for i, face in enumerate(sides, 1)}
-    if side not in named:
-        raise MeshError(
-            f"a surface of solid elements needs their sides, here S1 to S{len(sides)}", line=line
-        )
+    require(
+        (
+            side in named,
+            f"a surface of solid elements needs their sides, here S1 to S{len(sides)}",
+        ),
+        line=line,
+    )
     return [nodes[i] for i in named[side]]

@@ -18,9 +18,10 @@ from mapdl_archive import Archive
 from mapdl_archive.elements import ETYPE_MAP
 from numpy.typing import NDArray
 
-from geometry.base import MeshError, number
-from geometry.file_mesh import FileMesh, Solids, as_tetrahedra, require_all
+from geometry.base import MeshError, number, require
+from geometry.file_mesh import FileMesh, as_tetrahedra, require_all
 from geometry.file_physics import FileMaterial, Physics, agree
+from geometry.split import Block
 
 FACE, BRICK, TETRAHEDRON = 3, 4, 5  # values of ETYPE_MAP, by the number of an element type
 # the type that only meshes, and what it is by its KEYOPT(1)
@@ -106,11 +107,14 @@ def _declared(lines: list[str]) -> tuple[int | None, int | None]:
     heads = [line.upper().replace(" ", "").split(",") for line in lines if line[:1] in "NnEe"]
     node_blocks = [head for head in heads if head[0] == "NBLOCK"]
     element_blocks = [head for head in heads if head[0] == "EBLOCK" and "SOLID" in head]
-    if not node_blocks or not element_blocks:
-        missing = "EBLOCK of SOLID" if node_blocks else "NBLOCK"
-        raise MeshError(f"holds no {missing}, its nodes and elements in blocks: {EXPORT}")
-    if len(node_blocks) > 1:
-        raise MeshError(f"holds {len(node_blocks)} NBLOCK, allowed one: {EXPORT}")
+    missing = "EBLOCK of SOLID" if node_blocks else "NBLOCK"
+    require(
+        (
+            node_blocks and element_blocks,
+            f"holds no {missing}, its nodes and elements in blocks: {EXPORT}",
+        ),
+        (len(node_blocks) < 2, f"holds {len(node_blocks)} NBLOCK, allowed one: {EXPORT}"),
+    )
     counts = [_count(head) for head in element_blocks]
     return _count(node_blocks[0]), None if None in counts else sum(counts)
 
@@ -127,10 +131,13 @@ def _nodes(lines: list[str]) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
     """
     head = next(i for i, line in enumerate(lines) if line.upper().startswith("NBLOCK"))
     fields = FORMAT.fullmatch("".join("".join(lines[head + 1 : head + 2]).lower().split()))
-    if not fields or int(fields[3]) < 3:
-        raise MeshError(
-            f"its nodes have no format that is read, as (3i9,6e21.13e3): {EXPORT}", line=head + 2
-        )
+    require(
+        (
+            fields and int(fields[3]) >= 3,
+            f"its nodes have no format that is read, as (3i9,6e21.13e3): {EXPORT}",
+        ),
+        line=head + 2,
+    )
     whole, wide, count, width = (int(field or 1) for field in fields.groups())
     begin, numbers, points = whole * wide, [], []
     for place, line in enumerate(lines[head + 2 :], head + 3):
@@ -146,8 +153,7 @@ def _nodes(lines: list[str]) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
             )
         except ValueError as error:
             raise MeshError(f"a node cannot be read ({error}): {EXPORT}", line=place) from None
-    if not numbers:
-        raise MeshError(f"its block of nodes is empty: {EXPORT}", line=head + 1)
+    require((numbers, f"its block of nodes is empty: {EXPORT}"), line=head + 1)
     return np.array(numbers), np.array(points)
 
 
@@ -203,27 +209,31 @@ def _solid(values: NDArray, nodes: NDArray, category: int) -> _Element:
     used = np.append(nodes, np.full(MOST_NODES, ABSENT))[places]
     if len(np.unique(used[:corners])) < corners:
         kind, used = OTHER, used[:0]
-    turned = bool(values[SYSTEM])
-    return _Element(int(values[NUMBER]), int(values[MATERIAL]), turned, kind, used)
+    return _Element(
+        number=int(values[NUMBER]),
+        material=int(values[MATERIAL]),
+        turned=bool(values[SYSTEM]),
+        kind=kind,
+        nodes=used,
+    )
 
 
-def _solids(elements: list[_Element]) -> list[Solids]:
+def _solids(elements: list[_Element]) -> list[Block]:
     """Elements by kind."""
     if lacking := [element for element in elements if ABSENT in element.nodes]:
         raise MeshError(
             f"{len(lacking)} of {len(elements)} cells lack middle nodes, among them element "
             f"{lacking[0].number}: keep the middle nodes of all"
         )
-    by_kind: dict[tuple[str, int], list[_Element]] = {}
-    for element in elements:
-        by_kind.setdefault((element.kind, len(element.nodes)), []).append(element)
+    kinds = sorted({(element.kind, len(element.nodes)) for element in elements})
+    by_kind = [[e for e in elements if (e.kind, len(e.nodes)) == kind] for kind in kinds]
     return [
-        Solids(
-            kind,
+        Block(
             np.array([element.nodes for element in same]),
             np.array([element.number for element in same]),
+            same[0].kind,
         )
-        for (kind, _), same in sorted(by_kind.items())
+        for same in by_kind
     ]
 
 
@@ -241,8 +251,7 @@ def _physics(lines: list[str], solids: list[_Element], others: Counter[str]) -> 
         for command, *fields in commands
         if command == "TB" and len(fields) > 1 and NOT_ISOTROPIC.search(",".join(fields))
     }
-    if named["EN"]:
-        raise MeshError(f"has elements outside its blocks, {named['EN']} EN: {EXPORT}")
+    require((not named["EN"], f"has elements outside its blocks, {named['EN']} EN: {EXPORT}"))
     of_cells = Counter(element.material for element in solids)
     turned = {element.material for element in solids if element.turned}
     materials = []
@@ -250,8 +259,9 @@ def _physics(lines: list[str], solids: list[_Element], others: Counter[str]) -> 
         constants = values.get(key, {})
         faults = [laws.get(str(key), ""), _not_isotropic(constants), "ESYS" * (key in turned)]
         known = {LABELS[label]: x for label, x in constants.items() if label in LABELS}
-        other = " and ".join(filter(None, faults))
-        materials.append(FileMaterial(str(key), **known, cells=cells, other=other))
+        materials.append(
+            FileMaterial(str(key), **known, cells=cells, other=" and ".join(filter(None, faults)))
+        )
     masses = Counter({"MASS21": others.pop("MASS21", 0)})
     return Physics(tuple(materials), +masses, +others + named)
 
@@ -274,8 +284,7 @@ def _properties(lines: list[str]) -> Iterator[tuple[str, int, float]]:
         command, *fields = [field.strip() for field in line.partition("!")[0].upper().split(",")]
         if command == "MPDATA" and fields and fields[0].startswith("R"):
             fields = fields[2:]  # without revision and number of values
-        if command not in ("MP", "MPDATA") or len(fields) < 3:
-            continue
         first = 3 if command == "MPDATA" else 2  # behind the place of the first value
-        with suppress(ValueError, IndexError):
-            yield fields[0], int(fields[1]), number(fields[first])
+        if command in ("MP", "MPDATA") and len(fields) > 2:
+            with suppress(ValueError, IndexError):
+                yield fields[0], int(fields[1]), number(fields[first])

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 
-from geometry.base import MeshError, number, read_text, require_file
+from geometry.base import MeshError, number, read_text, require, require_file
 from geometry.blade import Cad
 from geometry.frame import box, rotation, to_blade
 from geometry.root_and_tip import within_radius
@@ -29,7 +29,7 @@ REFERENCE = re.compile(r"#(\d+)")
 NUMBERS = re.compile(r"CARTESIAN_POINT\s*\(\s*'[^']*'\s*,\s*\(([^)]*)\)")
 # number of leading references of an entity that are its boundary; then comes its geometry
 BOUNDARY = {"ADVANCED_FACE": -1, "EDGE_CURVE": 2}
-NAME = re.compile(r"[^']*'([^']*)'")
+NAME = re.compile(r"'([^']*)'")  # of a face, the first of its texts
 PREFIXES = {"$": "m", ".CENTI.": "cm", ".MILLI.": "mm"}
 
 
@@ -44,10 +44,16 @@ class StepFile:
 
     def __init__(self, path: str | Path) -> None:
         text = read_text(path, most=None, errors="replace")
-        if not text.lstrip().startswith("ISO-10303-21"):
-            raise MeshError("is no STEP file, whose first line is ISO-10303-21;: export it anew")
-        if "END-ISO-10303-21" not in text:
-            raise MeshError("has no end (END-ISO-10303-21;): it was cut short, export it anew")
+        require(
+            (
+                text.lstrip().startswith("ISO-10303-21"),
+                "is no STEP file, whose first line is ISO-10303-21;: export it anew",
+            ),
+            (
+                "END-ISO-10303-21" in text,
+                "has no end (END-ISO-10303-21;): it was cut short, export it anew",
+            ),
+        )
         self._entities = dict(ENTITY.findall(re.sub(r"\s*\n\s*", "", text)))
 
     @property
@@ -71,24 +77,17 @@ class StepFile:
         """Name and vertices (n, 3), in the file's unit, of the faces of its closed shells."""
         shells = [body for body in self._entities.values() if body.startswith("CLOSED_SHELL")]
         numbers = [face for shell in shells for face in REFERENCE.findall(shell)]
-        return [(self._name(n), self._vertices([n])) for n in numbers]
-
-    def _name(self, number: str) -> str:
-        """Name of a face; empty where it has none."""
-        name = NAME.match(self._entity(number))
-        return name[1] if name else ""
+        texts = [NAME.findall(self._entity(n)) or [""] for n in numbers]
+        return [(name, self._vertices([n])) for n, (name, *_) in zip(numbers, texts, strict=True)]
 
     def _entity(self, number: str) -> str:
-        if number not in self._entities:
-            raise MeshError(f"refers to entity #{number}, which is not in it: export it anew")
+        require(
+            (
+                number in self._entities,
+                f"refers to entity #{number}, which is not in it: export it anew",
+            )
+        )
         return self._entities[number]
-
-    @staticmethod
-    def _point(text: str) -> list[float]:
-        try:
-            return [number(value) for value in text.split(",")]
-        except ValueError as error:
-            raise MeshError(f"has a point ({text}): {error}: export it anew") from None
 
     def _vertices(self, numbers: list[str]) -> NDArray[np.float64]:
         """Vertices (n, 3) of entities and their boundaries, without points of curves, surfaces."""
@@ -96,7 +95,10 @@ class StepFile:
         while numbers:
             body = self._entity(numbers.pop())
             if place := NUMBERS.match(body):
-                points.append(self._point(place[1]))
+                try:
+                    points.append([number(value) for value in place[1].split(",")])
+                except ValueError as error:
+                    raise MeshError(f"has a point ({place[1]}): {error}: export it anew") from None
             below = REFERENCE.findall(body)[: BOUNDARY.get(body.split("(")[0].strip())]
             numbers += [n for n in below if n not in seen]
             seen.update(below)
@@ -124,27 +126,27 @@ def import_cad(cad: Cad, path: str | Path) -> Shape:
     groups = _groups(cad, step, solid) if step else {}
     _turn(solid, rotation(cad.frame))
     root, tip = (_find(cad, end, solid, groups) for end in ("root", "tip"))
-    if set(root) & set(tip):
-        raise MeshError("cad.root and cad.tip have faces in common; choose others")
+    require((not set(root) & set(tip), "cad.root and cad.tip have faces in common; choose others"))
     return Shape(solid, root, tip)
 
 
 def _checked_file(cad: Cad, path: Path) -> StepFile | None:
     """The entities of a STEP file, which gmsh is to read in m, as BREP; None of the latter."""
     require_file(path, READ)
-    if path.stat().st_size == 0:
-        raise MeshError("is empty: export it anew")
+    require((path.stat().st_size > 0, "is empty: export it anew"))
     if path.suffix.lower() == ".brep":
         gmsh.option.setNumber("Geometry.OCCScaling", cad.metres)
         return None
     gmsh.option.setString("Geometry.OCCTargetUnit", "M")
     step = StepFile(path)
-    if step.units != {cad.unit}:
-        units = " and ".join(sorted(step.units)) or "none"
-        raise MeshError(
+    units = " and ".join(sorted(step.units)) or "none"
+    require(
+        (
+            step.units == {cad.unit},
             f"declares the unit {units}, the settings say {cad.unit}; correct cad.unit "
-            f"or export the file anew"
+            f"or export the file anew",
         )
+    )
     return step
 
 
@@ -156,13 +158,14 @@ def _import(path: Path) -> int:
         raise MeshError(f"cannot be read as {path.suffix}; export it anew") from None
     gmsh.model.occ.synchronize()
     solids = [tag for _, tag in gmsh.model.getEntities(3)]
-    if len(solids) > 1:
-        volumes = ", ".join(f"{gmsh.model.occ.getMass(3, tag):.3g}" for tag in solids)
-        raise MeshError(f"holds {len(solids)} solids of {volumes} m3, not one; unite them")
-    if not solids:
-        raise MeshError(
-            f"holds no solid, but {len(gmsh.model.getEntities(2))} faces; close them to a solid"
-        )
+    volumes = ", ".join(f"{gmsh.model.occ.getMass(3, tag):.3g}" for tag in solids)
+    require(
+        (len(solids) < 2, f"holds {len(solids)} solids of {volumes} m3, not one; unite them"),
+        (
+            solids,
+            f"holds no solid, but {len(gmsh.model.getEntities(2))} faces; close them to a solid",
+        ),
+    )
     return solids[0]
 
 
@@ -183,8 +186,7 @@ def _check_manifold(cad: Cad, solid: int) -> None:
                 f"face(s) meet in the edge about ({place}) {cad.unit}; repair it in the CAD"
             )
     volume = gmsh.model.occ.getMass(3, solid)
-    if volume <= 0:
-        raise MeshError(f"the solid is inside out (volume {volume:.3g} m3); reverse its faces")
+    require((volume > 0, f"the solid is inside out (volume {volume:.3g} m3); reverse its faces"))
 
 
 def _turn(solid: int, R: NDArray) -> None:
@@ -207,11 +209,13 @@ def _groups(cad: Cad, step: StepFile, solid: int) -> dict[str, list[int]]:
     for (name, vertices), tag in zip(named, tags, strict=False):
         if name:
             groups.setdefault(name, []).append(tag)
-            if len(named) != len(tags) or not _same(vertices * cad.metres, _vertices(tag)):
-                raise MeshError(
-                    f"face {name} is not as in the file once it is read; find root and "
-                    f"tip by radius_mm"
+            require(
+                (
+                    len(named) == len(tags) and _same(vertices * cad.metres, _vertices(tag)),
+                    f"face {name} is not as in the file once it is read; find root and tip by "
+                    "radius_mm",
                 )
+            )
     return groups
 
 

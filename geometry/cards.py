@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from itertools import pairwise
 from pathlib import Path
 
-from geometry.base import MeshError, read_text
+from geometry.base import read_text, require
 
 # a row with options: one that has a value, or first one that has none
 OPTION = re.compile(r".*=|(GENERATE|INTERNAL|UNSORTED)\s*(,|$)", re.IGNORECASE)
@@ -22,8 +22,7 @@ class Card:
 
     def option(self, name: str) -> str:
         """An option without which the card says nothing."""
-        if not self.options.get(name):
-            raise MeshError(f"*{self.keyword} has no {name}", line=self.line)
+        require((self.options.get(name), f"*{self.keyword} has no {name}"), line=self.line)
         return self.options[name]
 
 
@@ -47,5 +46,5 @@ def read_cards(path: Path) -> list[Card]:
 
 
 def _options(text: str) -> dict[str, str]:
-    pairs = [option.partition("=") for option in text.split(",")]
-    return {name.strip().upper(): value.strip().strip('"').upper() for name, _, value in pairs}
+    pairs = (option.partition("=") for option in text.upper().split(","))
+    return {name.strip(): value.strip().strip('"') for name, _, value in pairs}

@@ -4,6 +4,7 @@ import re
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from typing import Any
 
 from geometry.base import MeshError, number
 from geometry.cards import Card
@@ -37,7 +38,7 @@ def physics_of(
     """
     others = Counter(name for card in cards for name in _not_read(card))
     masses = Counter({name: count for name, count in others.items() if MASS.match(name)})
-    defined = {material.name: material for material in _materials(cards)}
+    defined = _materials(cards)
     of_cells: dict[int, tuple[str, str]] = {}  # material, and what it is turned or layered by
     for card in (card for card in cards if card.keyword == "SOLID SECTION"):
         name = card.options.get("ELSET", "")
@@ -70,28 +71,22 @@ def _not_read(card: Card) -> Iterator[str]:
         yield from [kind] * len(card.rows)
 
 
-def _materials(cards: Iterable[Card]) -> Iterator[FileMaterial]:
-    """Materials with their first values, that is at the first of their temperatures."""
-    material = None
+def _materials(cards: Iterable[Card]) -> dict[str, FileMaterial]:
+    """Materials by name with their first values, that is at the first of their temperatures."""
+    given: list[dict[str, Any]] = []
     for card in cards:
+        kind = card.options.get("TYPE", "")
         if card.keyword == "MATERIAL":
-            if material:
-                yield material
-            material = FileMaterial(card.option("NAME"))
-        elif material and card.keyword == "DENSITY":
-            material = replace(material, density=_values(card, 1)[0])
-        elif material and card.keyword == "ELASTIC":
-            if (kind := card.options.get("TYPE", "")) in ISOTROPIC:
-                young_modulus, poisson_ratio = _values(card, 2)
-                material = replace(
-                    material, young_modulus=young_modulus, poisson_ratio=poisson_ratio
-                )
-            else:
-                material = replace(material, other=f"ELASTIC, TYPE={kind}")
-        elif material and NOT_ELASTIC.match(card.keyword):
-            material = replace(material, other=card.keyword)
-    if material:
-        yield material
+            given.append({"name": card.option("NAME")})
+        elif given and card.keyword == "DENSITY":
+            given[-1]["density"] = _values(card, 1)[0]
+        elif given and card.keyword == "ELASTIC" and kind in ISOTROPIC:
+            given[-1] |= zip(("young_modulus", "poisson_ratio"), _values(card, 2), strict=True)
+        elif given and card.keyword == "ELASTIC":
+            given[-1]["other"] = f"ELASTIC, TYPE={kind}"
+        elif given and NOT_ELASTIC.match(card.keyword):
+            given[-1]["other"] = card.keyword
+    return {values["name"]: FileMaterial(**values) for values in given}
 
 
 def _values(card: Card, count: int) -> list[float | None]:

@@ -10,6 +10,7 @@ from pydantic import Field
 
 from geometry.base import (
     RPM,
+    Check,
     Settings,
     SettingsError,
     SettingsFile,
@@ -17,6 +18,7 @@ from geometry.base import (
     file_hash,
     fingerprint,
     read_mapping,
+    require,
 )
 from geometry.blade import (
     MOST_TIP_SPEED,
@@ -114,8 +116,11 @@ class FullMatrices(Settings):
                 "needs either mesh_file alone, or nodes and hub_radius_mm, and with them either "
                 "tip, or S and camber"
             )
-        if 0.0 not in self.K:
-            raise SettingsError('needs the matrix at rest, `"0": FILE`, among its speeds', key="K")
+        require(
+            (0.0 in self.K, 'needs the matrix at rest, `"0": FILE`, among its speeds'),
+            kind=SettingsError,
+            key="K",
+        )
 
 
 class MatricesElsewhere(SettingsFile):
@@ -137,10 +142,13 @@ class MatricesElsewhere(SettingsFile):
 
     @checked
     def _one_row_of_S(self) -> None:
-        if (self.across or 1) > self._most_across:
-            raise SettingsError(
-                "S has one row across the thickness", key="across", value=self.across, allowed=1
-            )
+        require(
+            ((self.across or 1) <= self._most_across, "S has one row across the thickness"),
+            kind=SettingsError,
+            key="across",
+            value=self.across,
+            allowed=1,
+        )
 
     @property
     def _most_across(self) -> int:
@@ -148,12 +156,15 @@ class MatricesElsewhere(SettingsFile):
 
     @checked
     def _one_highest_speed(self) -> None:
-        if (self.max_speed_rpm is not None) != (len(self.full_matrices.K) == 1):
-            raise SettingsError(
+        require(
+            (
+                (self.max_speed_rpm is not None) == (len(self.full_matrices.K) == 1),
                 "is given where K is given at rest alone; else it is the last speed of K",
-                key="max_speed_rpm",
-                value=self.max_speed_rpm,
-            )
+            ),
+            kind=SettingsError,
+            key="max_speed_rpm",
+            value=self.max_speed_rpm,
+        )
 
     @property
     def files(self) -> list[PurePath]:
@@ -201,7 +212,6 @@ class MatricesElsewhere(SettingsFile):
         return self.settings_of_matrices() | {"basis": settings_of_basis(self.basis)}
 
 
-type Check = tuple[bool | np.bool, str]  # whether it holds, and the fault where it does not
 type AnyBlade = Blade | ModelElsewhere | MatricesElsewhere
 ELSEWHERE = (ModelElsewhere, MatricesElsewhere)
 
@@ -216,11 +226,6 @@ def read_blade(path: str | Path) -> AnyBlade:
     """
     values = read_mapping(path)
     return next((kind for kind in ELSEWHERE if kind.key in values), Blade).load(path)
-
-
-def failed(*checks: Check) -> list[str]:
-    """The faults of the checks that do not hold."""
-    return [fault for holds, fault in checks if not holds]
 
 
 def tip_checks(camber: NDArray[np.float64], span: float, top_speed: float) -> list[Check]:

@@ -3,14 +3,13 @@
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_matrix
 
-from geometry.base import MeshError
-from geometry.file_physics import Physics
+from geometry.base import require
+from geometry.file_physics import Physics, listed
 from geometry.frame import box
 from geometry.split import NODES, Block, flat_corners_first, split, triangles_of
 
@@ -71,18 +70,10 @@ class FileMesh:
         )
 
 
-class Solids(NamedTuple):
-    """Solid cells of one kind."""
-
-    kind: str  # as the file names it
-    nodes: NDArray[np.int64]  # (m, k), in VTK's order; of kinds that are not read k may be 0
-    numbers: NDArray[np.int64]  # (m,)
-
-
 def as_tetrahedra(
     points: NDArray[np.float64],
     node_numbers: NDArray[np.int64],
-    solids: Sequence[Solids],
+    solids: Sequence[Block],
     node_groups: Mapping[str, NDArray],
     faces: Mapping[str, Sequence[Sequence[int]]],
     physics: Physics,
@@ -131,29 +122,34 @@ def as_tetrahedra(
     )
 
 
-def _blocks(solids: Sequence[Solids]) -> list[Block]:
-    if not any(len(cells.nodes) for cells in solids):
-        raise MeshError(
+def _blocks(solids: Sequence[Block]) -> list[Block]:
+    blocks = [cells for cells in solids if len(cells.nodes)]
+    other = [cells for cells in solids if cells.nodes.shape[1] not in NODES]
+    require(
+        (
+            blocks,
             "holds no tetrahedra, bricks, wedges or pyramids, at most faces and lines: export the "
-            "cells of the volume too (of gmsh those of a physical volume are saved)"
-        )
-    if other := [cells for cells in solids if cells.nodes.shape[1] not in NODES]:
-        raise MeshError(
+            "cells of the volume too (of gmsh those of a physical volume are saved)",
+        ),
+        (
+            not other,
             f"holds {_held(other)}: read are tetrahedra, bricks, wedges and pyramids of first or "
-            "second order (of VTK its quadratic cells, not those of Lagrange or Bezier)"
+            "second order (of VTK its quadratic cells, not those of Lagrange or Bezier)",
+        ),
+    )
+    require(
+        (
+            len({block.second_order for block in blocks}) == 1,
+            f"mixes cells of first and second order, {_held(solids)}: export one order",
         )
-    blocks = [Block(cells.nodes, cells.numbers) for cells in solids if len(cells.nodes)]
-    if len({block.second_order for block in blocks}) > 1:
-        raise MeshError(f"mixes cells of first and second order, {_held(solids)}: export one order")
+    )
     return blocks
 
 
-def _held(solids: Sequence[Solids]) -> str:
+def _held(solids: Sequence[Block]) -> str:
     """How many cells of each kind."""
-    counts: Counter[str] = Counter()
-    for cells in solids:
-        counts[cells.kind] += len(cells.nodes)
-    return ", ".join(f"{count} {kind}" for kind, count in sorted(counts.items()) if count)
+    counts = (Counter({cells.named: len(cells.nodes)}) for cells in solids)
+    return listed(sum(counts, Counter()))
 
 
 def require_all(what: str, declared: int | None, read: int, remedy: str) -> None:
@@ -164,5 +160,9 @@ def require_all(what: str, declared: int | None, read: int, remedy: str) -> None
     MeshError
         When they do.
     """
-    if declared not in (None, read):
-        raise MeshError(f"declares {declared} {what}, of which {read} are read: {remedy}")
+    require(
+        (
+            declared in (None, read),
+            f"declares {declared} {what}, of which {read} are read: {remedy}",
+        )
+    )

@@ -6,7 +6,7 @@ Materials are shown, and compared with that of the blade, which is taken.
 from collections import Counter
 from dataclasses import dataclass, field
 
-from geometry.base import MeshError
+from geometry.base import require
 from geometry.blade import Material
 
 UNITS = {  # of stress (Pa) and of density (kg/m3) by that of length, as programs pair them
@@ -16,6 +16,11 @@ UNITS = {  # of stress (Pa) and of density (kg/m3) by that of length, as program
     "in": (6894.757, 1.06869e7, "psi and lbf s2/in4"),
 }
 APART = 0.01  # relative difference of which is warned
+
+
+def listed(counts: Counter[str]) -> str:
+    """How many there are of each kind, those of which there are any."""
+    return ", ".join(f"{count} {kind}" for kind, count in sorted(counts.items()) if count)
 
 
 def agree(one: float, other: float) -> bool:
@@ -33,11 +38,6 @@ class FileMaterial:
     density: float | None = None
     cells: int = 0  # solid cells that are of it; 0 where the file does not say
     other: str = ""  # the card by which it is not isotropic, or has an orientation
-
-    @property
-    def values(self) -> tuple[float | None, ...]:
-        """Young's modulus, Poisson's ratio and density."""
-        return self.young_modulus, self.poisson_ratio, self.density
 
     def taken_in(self, unit: str) -> dict[str, float]:
         """Values by the key of ``Material``, if its units go with the file's ``unit`` of length."""
@@ -66,8 +66,8 @@ class FileMaterial:
 
     def same_as(self, other: "FileMaterial") -> bool:
         """Whether the file gives all values of both, and they are the same."""
-        pairs = zip(self.values, other.values, strict=True)
-        return all(a is not None and b is not None and agree(a, b) for a, b in pairs)
+        one, two = self.taken_in("m"), other.taken_in("m")
+        return len(one) == len(two) == 3 and all(agree(one[key], two[key]) for key in one)
 
 
 @dataclass(frozen=True)
@@ -81,9 +81,7 @@ class Physics:
     @property
     def described(self) -> str:
         """What is not taken of the file, with its number; empty where that is nothing."""
-        return ", ".join(
-            f"{count} {name}" for name, count in sorted((self.masses + self.left_out).items())
-        )
+        return listed(self.masses + self.left_out)
 
     def require_plain(self) -> None:
         """Refuse physics that the model of a meshed blade does not have.
@@ -101,11 +99,12 @@ class Physics:
             )
             faults.insert(0, f"{len(self.materials)} materials ({named})")
         if self.masses:
-            masses = ", ".join(f"{count} {name}" for name, count in sorted(self.masses.items()))
-            faults.append(f"point masses ({masses})")
-        if faults:
-            raise MeshError(
+            faults.append(f"point masses ({listed(self.masses)})")
+        require(
+            (
+                not faults,
                 f"has {' and '.join(faults)}; a blade of `mesh_file` is of one isotropic material "
                 "without masses: give the matrices of its program by `full_matrices` "
-                "(fem/matrices.md), which have all of that, or a file without it"
+                "(fem/matrices.md), which have all of that, or a file without it",
             )
+        )

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
-from geometry.base import MeshError, MeshWarning
+from geometry.base import MeshError, MeshWarning, require
 from geometry.blade import MeshGeometry
 from geometry.file_mesh import FileMesh
 from geometry.frame import axes, to_blade, turned
@@ -66,9 +66,7 @@ def import_mesh(source: MeshGeometry, path: str | Path) -> Shape:
         _check_own_cells(source, file)
     _check_along(points, cells, given)
     _check_cells(source, points, cells, mesh.numbers)
-    _add_cells(points, cells)
-    root, tip = root_and_tip(source, mesh, points, surface)
-    _add_facets(root, tip)
+    _add(points, cells, *root_and_tip(source, mesh, points, surface))
     return Shape(solid=1, root=(1,), tip=(2,), physics=mesh.physics)
 
 
@@ -104,16 +102,18 @@ def _check_needles(points: NDArray, surface: NDArray) -> None:
     corners = points[surface[:, :3]]
     ahead, behind = (np.roll(corners, turn, axis=1) - corners for turn in (-1, 1))
     turned, along = np.linalg.norm(np.cross(ahead, behind), axis=2), (ahead * behind).sum(axis=2)
-    around = np.zeros(len(points))
-    np.add.at(around, surface[:, :3], np.degrees(np.arctan2(turned, along)))
+    angles = np.degrees(np.arctan2(turned, along))
+    around = np.bincount(surface[:, :3].ravel(), angles.ravel())
     nodes = np.unique(surface[:, :3])
     worst = nodes[around[nodes].argmin()]
-    if around[worst] < LEAST_AROUND:
-        raise MeshError(
+    require(
+        (
+            around[worst] >= LEAST_AROUND,
             f"the node at {_place(points[worst])} mm in the blade's frame stands out of the "
             f"surface: the facets around it make {around[worst]:.0f} degrees (allowed from "
-            f"{LEAST_AROUND:g}): correct its coordinates, or {BY_MATRICES}"
+            f"{LEAST_AROUND:g}): correct its coordinates, or {BY_MATRICES}",
         )
+    )
 
 
 def _check_order(points: NDArray, cells: NDArray) -> None:
@@ -121,11 +121,13 @@ def _check_order(points: NDArray, cells: NDArray) -> None:
     by_vtk, by_gmsh = (
         _off_middle(points, given)[1].max() <= MOST_BENT for given in (cells, cells[:, GMSH])
     )
-    if by_gmsh and not by_vtk:
-        raise MeshError(
+    require(
+        (
+            by_vtk or not by_gmsh,
             "the middle nodes are in gmsh's order, not in that of the format: exchange the last "
-            "two nodes of each cell"
+            "two nodes of each cell",
         )
+    )
 
 
 def _check_bent(points: NDArray, cells: NDArray, given: NDArray) -> None:
@@ -137,25 +139,29 @@ def _check_bent(points: NDArray, cells: NDArray, given: NDArray) -> None:
     off, bent, _ = _off_middle(points, cells)
     bent = np.where(given[cells[:, 4:]], bent, 0.0)
     cell, edge = np.unravel_index(bent.argmax(), bent.shape)
-    if not bent[cell, edge] <= MOST_BENT:
-        raise MeshError(
+    require(
+        (
+            bent[cell, edge] <= MOST_BENT,
             f"the node at {_place(points[cells[cell, 4 + edge]])} mm in the blade's frame is "
             f"{1e3 * off[cell, edge]:.3g} mm from the middle of its edge, {bent[cell, edge]:.2g} "
-            f"times its length (allowed {MOST_BENT:g}): correct its coordinates, or {STRAIGHTEN}"
+            f"times its length (allowed {MOST_BENT:g}): correct its coordinates, or {STRAIGHTEN}",
         )
+    )
 
 
 def _check_along(points: NDArray, cells: NDArray, given: NDArray) -> None:
     """Check that no middle node of the file is at a quarter of its edge, as at a crack's tip."""
     off = np.where(given[cells[:, 4:]], abs(_off_middle(points, cells)[2] - 0.5), 0.0)
     cell, edge = np.unravel_index(off.argmax(), off.shape)
-    if off[cell, edge] > MOST_ALONG:
-        raise MeshError(
+    require(
+        (
+            not off[cell, edge] > MOST_ALONG,  # not a number where an edge has no length
             f"the middle node at {_place(points[cells[cell, 4 + edge]])} mm in the blade's frame "
             f"is at {0.5 - off[cell, edge]:.2g} of its edge (allowed {0.5 - MOST_ALONG:g} to 0.5), "
             f"where the cell is flat at a corner: move it to the middle, {STRAIGHTEN}, or "
-            f"{BY_MATRICES}"
+            f"{BY_MATRICES}",
         )
+    )
 
 
 def _straightened(source: MeshGeometry, points: NDArray, cells: NDArray, given: NDArray) -> NDArray:
@@ -221,12 +227,16 @@ def _place(point: NDArray) -> str:
     return ", ".join(f"{x * 1e3:.1f}" for x in point)
 
 
-def _add_cells(points: NDArray, cells: NDArray) -> None:
+def _add(points: NDArray, cells: NDArray, root: NDArray, tip: NDArray) -> None:
+    """Add the solid 1 and its surfaces 1 and 2, root and tip, to gmsh's model."""
     gmsh.model.addDiscreteEntity(3, 1)
     gmsh.model.mesh.addNodes(3, 1, np.arange(len(points)) + 1, points.ravel())
     gmsh.model.mesh.addElementsByType(
         1, CELL, np.arange(len(cells)) + 1, (cells[:, GMSH] + 1).ravel()
     )
+    for surface, facets in ((1, root), (2, tip)):
+        gmsh.model.addDiscreteEntity(2, surface)
+        gmsh.model.mesh.addElementsByType(surface, FACET, [], (facets + 1).ravel())
 
 
 def _check_own_cells(source: MeshGeometry, file: FileMesh) -> None:
@@ -234,8 +244,12 @@ def _check_own_cells(source: MeshGeometry, file: FileMesh) -> None:
     placed = file.points @ axes(source).T
     remedy = "repair it" if file.first_order else f"repair it, or, if it is curved, {STRAIGHTEN}"
     for block in file.blocks:
-        middles = placed[block.corners].mean(axis=1)
-        _require_positive(of_file(file.points, block).ratios, middles, block.numbers, remedy)
+        _require_positive(
+            of_file(file.points, block).ratios,
+            placed[block.corners].mean(axis=1),
+            block.numbers,
+            remedy,
+        )
 
 
 def _check_cells(source: MeshGeometry, points: NDArray, cells: NDArray, numbers: NDArray) -> None:
@@ -264,9 +278,3 @@ def _require_positive(found: NDArray, middles: NDArray, numbers: NDArray, remedy
             f"{_place(middles[worst])} mm in the blade's frame, of cell {numbers[worst]} of the "
             f"file: {remedy}"
         )
-
-
-def _add_facets(root: NDArray, tip: NDArray) -> None:
-    for surface, facets in ((1, root), (2, tip)):
-        gmsh.model.addDiscreteEntity(2, surface)
-        gmsh.model.mesh.addElementsByType(surface, FACET, [], (facets + 1).ravel())

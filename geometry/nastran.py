@@ -51,16 +51,14 @@ def _translated(line: int, keyword: str, fields: list[str]) -> list[Card]:
     if MATERIAL.fullmatch(keyword):
         return _material(line, keyword, fields)
     nodes = [node for node in others if node]
-    its_property = {"ELSET": f"nastran:ref={second}"}
-    if shell := SHELLS.get(keyword):
-        row = line, [first, *nodes[: int(shell[-1])]]
-        return [Card("ELEMENT", {"TYPE": shell} | its_property, line, [row])]
-    if not SOLID.match(keyword):
+    shell = SHELLS.get(keyword)
+    if not (shell or SOLID.match(keyword)):
         return [Card(keyword, {}, line)]
     fewest, most = SOLIDS.get(keyword, ("", ""))
-    kind = f"{keyword}{fewest if len(nodes) == fewest else most}"
-    row = line, [first, *_as_abaqus(nodes)]
-    return [Card("ELEMENT", {"TYPE": kind} | its_property, line, [row])]
+    kind = shell or f"{keyword}{fewest if len(nodes) == fewest else most}"
+    its_nodes = nodes[: int(shell[-1])] if shell else _as_abaqus(nodes)
+    options = {"TYPE": kind, "ELSET": f"nastran:ref={second}"}
+    return [Card("ELEMENT", options, line, [(line, [first, *its_nodes])])]
 
 
 def _material(line: int, keyword: str, fields: list[str]) -> list[Card]:

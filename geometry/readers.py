@@ -13,11 +13,11 @@ from numpy.typing import NDArray
 
 from geometry.abaqus import read_deck
 from geometry.ansys import EXPORT, read_archive
-from geometry.base import MeshError, UserError, require_file
-from geometry.file_mesh import FileMesh, Solids, as_tetrahedra, require_all
+from geometry.base import MeshError, UserError, require, require_file
+from geometry.file_mesh import FileMesh, as_tetrahedra, require_all
 from geometry.file_physics import Physics
 from geometry.nastran import read_bulk
-from geometry.split import NODES, upright
+from geometry.split import NODES, Block, upright
 
 SECTION = re.compile(rb"^\$(Nodes|Elements)[ \r]*\n(.*?)^\$End\1", re.MULTILINE | re.DOTALL)
 NAMES = re.compile(rb'^[ \t]*(\d) +(\d+) +"([^"]*)"', re.MULTILINE)  # dimension, number, name
@@ -38,10 +38,16 @@ def _read_msh(path: Path) -> FileMesh:
     if data.lstrip().startswith(b"*"):
         return read_deck(path)
     sections = SECTION.findall(data)
-    if sorted(name for name, _ in sections) != [b"Elements", b"Nodes"]:
-        raise MeshError(f"needs one $Nodes and one $Elements, both with their end: {ANEW['.msh']}")
-    if b"$PartitionedEntities" in data:
-        raise MeshError("is partitioned: save it whole (in gmsh: Mesh, Unpartition)")
+    require(
+        (
+            sorted(name for name, _ in sections) == [b"Elements", b"Nodes"],
+            f"needs one $Nodes and one $Elements, both with their end: {ANEW['.msh']}",
+        ),
+        (
+            b"$PartitionedEntities" not in data,
+            "is partitioned: save it whole (in gmsh: Mesh, Unpartition)",
+        ),
+    )
     mesh = meshio.gmsh.read(path)
     for block in mesh.cells:
         if block.type in SERENDIPITY:
@@ -100,18 +106,20 @@ def read_mesh_file(path: str | Path) -> FileMesh:
             f"cannot be read as {path.suffix} ({error!r}): "
             f"{ANEW.get(path.suffix, 'export it anew')}"
         ) from None
-    if mesh.points.ndim != 2 or mesh.points.shape[1] != 3 or not np.isfinite(mesh.points).all():
-        raise MeshError("each of its nodes must have three finite coordinates")
+    finite = mesh.points.shape[1:] == (3,) and np.isfinite(mesh.points).all()
+    require((finite, "each of its nodes must have three finite coordinates"))
     return mesh
 
 
 def _from_meshio(mesh: meshio.Mesh) -> FileMesh:
     for block in mesh.cells:
-        if not np.isin(block.data, np.arange(len(mesh.points))).all():
-            raise MeshError(
+        require(
+            (
+                np.isin(block.data, np.arange(len(mesh.points))).all(),
                 f"a {block.type} names a node that does not exist: is it cut short, or counted "
-                "from another number?"
+                "from another number?",
             )
+        )
     blocks = [block for block in mesh.cells if block.dim == 3]
     groups = _cell_groups(mesh)
     ends = np.cumsum([*map(len, blocks)])
@@ -119,7 +127,7 @@ def _from_meshio(mesh: meshio.Mesh) -> FileMesh:
         mesh.points,
         np.arange(len(mesh.points)) + 1,
         [
-            Solids(block.type, _nodes(block, mesh.points), np.arange(end - len(block), end) + 1)
+            Block(_nodes(block, mesh.points), np.arange(end - len(block), end) + 1, block.type)
             for block, end in zip(blocks, ends, strict=True)
         ],
         node_groups={

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from geometry.base import MeshError
+from geometry.base import MeshError, require
 from geometry.blade import Face, MeshFile
 from geometry.facets import normals
 from geometry.file_mesh import FileMesh
@@ -32,24 +32,21 @@ def root_and_tip(
         and tip share facets, the root is outside the tip, or the tip is a part of its face.
     """
     corners = np.hypot(points[:, 0], points[:, 1])[surface[:, :3]]
-    chosen = {}
-    for key in ("root", "tip"):
-        face = getattr(source, key)
-        if face.group is None:
-            tolerance = ON_RADIUS * face.radius_mm * 1e-3
-            chosen[key] = within_radius(key, face.radius_mm, corners, tolerance)
-        else:
-            groups = [_of_group(key, name, mesh, surface) for name in face.groups]
-            chosen[key] = np.any(groups, axis=0)
-    root, tip = chosen.values()
-    if np.any(root & tip):
-        raise MeshError(f"root and tip share {np.sum(root & tip)} facets")
+    root, tip = (
+        np.any([_of_group(key, name, mesh, surface) for name in face.groups], axis=0)
+        if face.groups
+        else within_radius(key, face.radius_mm, corners, ON_RADIUS * face.radius_mm * 1e-3)
+        for key, face in (("root", source.root), ("tip", source.tip))
+    )
     inner, outer = corners[root].mean(), corners[tip].mean()
-    if inner >= outer:
-        raise MeshError(
+    require(
+        (not np.any(root & tip), f"root and tip share {np.sum(root & tip)} facets"),
+        (
+            inner < outer,
             f"the root is at radius {inner * 1e3:.4g} mm and the tip at {outer * 1e3:.4g} mm: "
-            f"check frame.downstream, or exchange root and tip"
-        )
+            f"check frame.downstream, or exchange root and tip",
+        ),
+    )
     _check_whole(source.tip, surface, tip, points)
     return surface[root], surface[tip]
 
@@ -65,13 +62,14 @@ def _check_whole(face: Face, surface: NDArray, tip: NDArray, points: NDArray) ->
     ends = tip[one] != tip[other]
     cosine = np.cos(np.radians(SMOOTH)) * area[one] * area[other]
     smooth = ends & ((normal[one] * normal[other]).sum(axis=1) > cosine)
-    if np.any(smooth):
-        raise MeshError(
-            f"at {np.sum(smooth)} of the "
-            f"{np.sum(ends)} edges around the tip its face goes on, within {SMOOTH:g} degrees: "
-            f"give all of its facets",
-            key=f"tip.{'radius_mm' if face.group is None else 'group'}",
-        )
+    require(
+        (
+            not np.any(smooth),
+            f"at {np.sum(smooth)} of the {np.sum(ends)} edges around the tip its face goes on, "
+            f"within {SMOOTH:g} degrees: give all of its facets",
+        ),
+        key=f"tip.{'radius_mm' if face.group is None else 'group'}",
+    )
 
 
 def outline_of(facets: NDArray, points: NDArray) -> NDArray[np.int64]:
@@ -105,13 +103,15 @@ def within_radius(
     sign, where, nearest = BEYOND[key.split(".")[-1]]
     farthest = (sign * r).max(axis=1)
     chosen = farthest <= sign * radius_mm * 1e-3 + tolerance
-    if not np.any(chosen):
-        raise MeshError(
+    require(
+        (
+            np.any(chosen),
             f"no face lies wholly {where} that; the {nearest} to "
             f"{abs(farthest.min()) * 1e3:.6g} mm",
-            key=f"{key}.radius_mm",
-            value=radius_mm,
-        )
+        ),
+        key=f"{key}.radius_mm",
+        value=radius_mm,
+    )
     return chosen
 
 
@@ -121,15 +121,22 @@ def _of_group(key: str, given: str, mesh: FileMesh, surface: NDArray) -> NDArray
     if len(mesh.face_groups.get(group, ())):
         chosen = _matched(key, group, mesh.face_groups[group], surface)
     elif group in mesh.node_groups:
-        inside = np.zeros(mesh.cells.max() + 1, dtype=bool)
-        inside[mesh.node_groups[group]] = True
-        chosen = inside[surface].all(axis=1)
+        chosen = np.isin(surface, mesh.node_groups[group]).all(axis=1)
     else:
-        raise MeshError(_why_not({given, group}, mesh), key=f"{key}.group", value=given)
-    if not np.any(chosen):
+        names = sorted(mesh.groups)
+        more = f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else ""
+        empty = {given, group} & mesh.face_groups.keys()
+        fault = "holds no triangles" if empty else "no such group"
         raise MeshError(
-            "no facet of the surface has all its nodes in it", key=f"{key}.group", value=given
+            f"{fault}; groups of faces or nodes: {', '.join(names[:MOST_NAMES]) or 'none'}{more}",
+            key=f"{key}.group",
+            value=given,
         )
+    require(
+        (np.any(chosen), "no facet of the surface has all its nodes in it"),
+        key=f"{key}.group",
+        value=given,
+    )
     return chosen
 
 
@@ -138,19 +145,14 @@ def _matched(key: str, group: str, faces: NDArray, surface: NDArray) -> NDArray[
     corners = np.sort(np.vstack([surface[:, :3], faces]), axis=1)
     _, number = np.unique(corners, axis=0, return_inverse=True)
     outside, chosen = np.split(number.ravel(), [len(surface)])
-    if astray := np.sum(~np.isin(chosen, outside)):
-        raise MeshError(
+    astray = np.sum(~np.isin(chosen, outside))
+    require(
+        (
+            not astray,
             f"{astray} of its {len(faces)} faces are not on the surface of the tetrahedra: they "
             "must share its nodes",
-            key=f"{key}.group",
-            value=group,
-        )
+        ),
+        key=f"{key}.group",
+        value=group,
+    )
     return np.isin(outside, chosen)
-
-
-def _why_not(group: set[str], mesh: FileMesh) -> str:
-    names = sorted(mesh.groups)
-    more = f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else ""
-    named = f"groups of faces or nodes: {', '.join(names[:MOST_NAMES]) or 'none'}{more}"
-    fault = "holds no triangles" if group & mesh.face_groups.keys() else "no such group"
-    return f"{fault}; {named}"

@@ -88,8 +88,9 @@ TURNED = [3, 4, 5, 0, 1, 2, 9, 10, 11, 6, 7, 8, 12, 13, 14]  # a wedge seen from
 class Block(NamedTuple):
     """Solid cells of one kind: nodes (m, k) in VTK's order, rows of points, and their numbers."""
 
-    nodes: NDArray
+    nodes: NDArray  # of kinds that are not read k may be 0
     numbers: NDArray  # (m,), in the file
+    named: str = ""  # its kind, as the file names it
 
     @property
     def kind(self) -> Kind:
@@ -141,12 +142,13 @@ class _Edges:
     def __init__(self, given: int) -> None:
         self.weights = csr_matrix(eye_array(given))  # as of ``Split``
         self.parents = np.empty((0, 4), dtype=int)
-        self._ends, self._middles = np.empty((0, 2), dtype=int), np.empty(0, dtype=int)
+        # ends (n, 2), in order, and middle nodes (n,) of all edges
+        self.known, self.known_middles = np.empty((0, 2), dtype=int), np.empty(0, dtype=int)
 
     def know(self, ends: NDArray, middles: NDArray) -> None:
         """Take middle nodes (n,) of edges with ``ends`` (n, 2)."""
-        self._ends = np.vstack([self._ends, np.sort(ends, axis=1)])
-        self._middles = np.append(self._middles, middles)
+        self.known = np.vstack([self.known, np.sort(ends, axis=1)])
+        self.known_middles = np.append(self.known_middles, middles)
 
     def make(self, ends: NDArray, parents: NDArray, nodes: NDArray, weights: NDArray) -> None:
         """Add the middles of edges with ``ends`` (n, 2): sums over ``nodes`` (n, k)."""
@@ -158,25 +160,15 @@ class _Edges:
         self.weights = vstack([self.weights, sums @ self.weights], format="csr")
         self.parents = np.vstack([self.parents, parents])
 
-    def check(self) -> None:
-        """Check that no edge has two middle nodes.
-
-        Raises
-        ------
-        MeshError
-            When one has.
-        """
-        check_middles(self._ends, self._middles)
-
     def middles(self, ends: NDArray) -> NDArray:
         """Middle nodes (...) of edges with ``ends`` (..., 2)."""
         stored, asked = (
             np.sort(pairs.reshape(-1, 2), axis=1) @ (self.weights.shape[0], 1)
-            for pairs in (self._ends, ends)
+            for pairs in (self.known, ends)
         )
         order = np.argsort(stored)
         place = np.searchsorted(stored, asked, sorter=order)
-        return self._middles[order[place]].reshape(ends.shape[:-1])
+        return self.known_middles[order[place]].reshape(ends.shape[:-1])
 
 
 def flat_corners_first(points: NDArray, blocks: Sequence[Block]) -> NDArray[np.int64]:
@@ -226,21 +218,22 @@ def split(points: NDArray, blocks: Sequence[Block]) -> Split:
         ends = np.unique(np.sort(ends, axis=1), axis=0)
         edges.make(ends, ends[:, [0, 0, 1, 1]], ends, OF_EDGE)
     if any(block.kind is not KINDS["tetra"] for block in blocks):
-        edges.check()
+        check_middles(edges.known, edges.known_middles)
         _check_quadrilaterals(blocks)
         _cut_quadrilaterals(edges, blocks)
         _cut_bricks(edges, blocks)
     cells = [_ten_nodes(block, edges) for block in blocks]
-    numbers = [
-        np.repeat(block.numbers, len(tetrahedra) // len(block.nodes))
-        for block, tetrahedra in zip(blocks, cells, strict=True)
-    ]
     return Split(
-        edges.weights @ points,
-        edges.weights,
-        np.vstack(cells),
-        np.concatenate(numbers),
-        edges.parents,
+        points=edges.weights @ points,
+        weights=edges.weights,
+        cells=np.vstack(cells),
+        numbers=np.concatenate(
+            [
+                np.repeat(block.numbers, len(tetrahedra) // len(block.nodes))
+                for block, tetrahedra in zip(blocks, cells, strict=True)
+            ]
+        ),
+        parents=edges.parents,
     )
 
 

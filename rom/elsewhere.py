@@ -6,7 +6,7 @@ blade's frame, nor that one basis projected K at all speeds.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass, fields, replace
+from dataclasses import fields, replace
 from itertools import islice
 from pathlib import Path
 from typing import Any
@@ -16,18 +16,16 @@ import xarray as xr
 from numpy.typing import NDArray
 from scipy.linalg import eigh
 
-from geometry.base import Provenance, code_hash, file_hash, sealed
+from geometry.base import Provenance, code_hash, failed, file_hash, require, sealed
 from geometry.blade import EnrichedBasis, settings_of_basis
-from geometry.elsewhere import OFF_LINE, SYMMETRIC, failed, tip_checks
+from geometry.elsewhere import OFF_LINE, SYMMETRIC, tip_checks
 from geometry.tip import cartesian
 from rom.model import CODE, DIRECTIONS, Rom, RomError
 
 NAMES = tuple(DIRECTIONS.values())
 ALLOWED = (NAMES[:1], NAMES[:2], NAMES, NAMES[::2])  # of the interface DoFs
-OPTIONAL = (
-    *("points", "f1", "growth", "advance", "speeds", "slope", "u_t", "across", "sides"),
-    *("gauges", "gauge_rows"),
-)
+OPTIONAL_ARRAYS = ("points", "growth", "advance", "speeds", "slope", "u_t", "sides")
+OPTIONAL = (*OPTIONAL_ARRAYS, "f1", "across", "gauges", "gauge_rows")
 PAGE = "rom/README.md, A reduced model from elsewhere,"
 SPEEDS = 33  # over [0, Omega_m], at which K must be positive definite
 DEFINITE = 1e-14  # of the largest eigenvalue: round-off
@@ -45,14 +43,6 @@ UNCHECKED = (
 )
 
 
-@dataclass(frozen=True)
-class Report:
-    """Findings of a check of a foreign model, a line each."""
-
-    shown: tuple[str, ...]
-    faults: tuple[str, ...]
-
-
 def read_elsewhere(path: str | Path, blade: str) -> Rom:
     """The reduced model in a file made elsewhere, as that of ``blade``.
 
@@ -61,8 +51,17 @@ def read_elsewhere(path: str | Path, blade: str) -> Rom:
     RomError
         When it cannot be read, or a check fails; a line for each fault.
     """
-    rom = _read(path, blade)
-    if faults := check_elsewhere(rom).faults:
+    variables = _values(path)
+    rom = _rom(variables, blade, file_hash(path))
+    if faults := (
+        _shape_faults(rom, variables["power"])
+        or _tip_faults(rom)
+        or [*islice(_matrix_faults(rom), 1)]
+    ):
+        raise RomError(*faults, file=path)
+    f1 = float(rom.modes(0.0)[0][0] / (2 * np.pi))
+    rom = rom if "f1" in variables else replace(rom, f1=f1)
+    if faults := _frequency_faults(rom, f1):
         raise RomError(*faults, file=path)
     return rom
 
@@ -89,23 +88,10 @@ def _elsewhere(path: Path) -> bool:
         return False
 
 
-def report(path: str | Path) -> Report:
-    """Findings of a check of the file at ``path``.
-
-    Raises
-    ------
-    RomError
-        When it cannot be read, or fields are missing or do not fit each other.
-    """
-    return check_elsewhere(_read(path, ""))
-
-
-def check_elsewhere(rom: Rom) -> Report:
-    """Check a reduced model by itself."""
-    if faults := _tip_faults(rom) or [*islice(_matrix_faults(rom), 1)]:
-        return Report((), tuple(faults))
+def described(rom: Rom) -> list[str]:
+    """What a reduced model made elsewhere says of itself, a line each."""
     frequencies = [rom.modes(Omega)[0][:SHOWN] / (2 * np.pi) for Omega in (0.0, rom.Omega_m)]
-    shown = [
+    return [
         f"{rom.n} DoFs, {len(rom.xi)} {'points' if rom.of_points else 'patches'} with "
         f"{', '.join(rom.directions)} DoFs",
         f"M, K symmetric; M positive definite; K(Omega) positive definite at {SPEEDS} speeds up to "
@@ -114,20 +100,14 @@ def check_elsewhere(rom: Rom) -> Report:
             f"frequencies {where} (Hz): {' '.join(f'{f:.2f}' for f in values)}"
             for where, values in zip(("at rest", "at Omega_m"), frequencies, strict=True)
         ),
-        *_compliances(rom),
+        *(
+            f"{name} compliance of the tip at rest: {values.min():.3g} to {values.max():.3g} m/N"
+            for name, values in zip(rom.directions, rom.compliance(0.0).T, strict=True)  # of places
+        ),
         f"tip: radius {rom.camber[:, 0].mean():.6g} m, axial length "
         f"{np.ptp(rom.camber[:, 2]):.4g} m; span {rom.span:.6g} m",
         _growth(rom),
     ]
-    return Report(tuple(shown), tuple(_frequency_faults(rom, frequencies[0][0])))
-
-
-def _read(path: str | Path, blade: str) -> Rom:
-    variables = _values(path)
-    rom = _rom(variables, blade, file_hash(path))
-    if faults := _shape_faults(rom, variables["power"]):
-        raise RomError(*(f"{fault}; see {PAGE[:-1]}" for fault in faults), file=path)
-    return rom if "f1" in variables else replace(rom, f1=_first_frequency(rom))
 
 
 def _values(path: str | Path) -> dict[str, Any]:
@@ -143,25 +123,28 @@ def _values(path: str | Path) -> dict[str, Any]:
         raise RomError(f"lacks {', '.join(missing)}: {PAGE} says what each is", file=path)
     for name in (name for name in variables if name not in ("directions", "power")):
         values, dimensions = variables[name], len(dims[name])
-        if values.ndim != dimensions or values.dtype.kind not in "iuf":
-            raise RomError(
+        require(
+            (
+                values.ndim == dimensions and values.dtype.kind in "iuf",
                 f"{values.ndim} dimensions of type {values.dtype}, needs {dimensions} of real "
                 f"numbers; see {PAGE[:-1]}",
-                file=path,
-                key=name,
-            )
+            ),
+            kind=RomError,
+            file=path,
+            key=name,
+        )
     return variables
 
 
 def _rom(variables: dict[str, Any], blade: str, mesh: str) -> Rom:
     """The model of the values in a file, with the settings by which a coarser one is made."""
-    arrays = (
-        *("M", "K", "xi", "points", "camber", "growth", "advance", "speeds", "slope", "u_t"),
-        "sides",
-    )
     values: dict[str, Any] = {
         "points": np.empty((0, 3)),
-        **{name: np.asarray(variables[name], float) for name in arrays if name in variables},
+        **{
+            name: np.asarray(variables[name], float)
+            for name in ("M", "K", "xi", "camber", *OPTIONAL_ARRAYS)
+            if name in variables
+        },
         **{name: float(variables.get(name, np.nan)) for name in ("Omega_m", "span", "f1")},
         "across": int(across) if (across := variables.get("across", 1)) in (1, 2) else 0,
     }
@@ -172,16 +155,11 @@ def _rom(variables: dict[str, Any], blade: str, mesh: str) -> Rom:
         natural_modes=min(max(fixed_modes, 1), 100), speeds=min(max(len(values["K"]), 3), 9)
     )
     settings = {"reduced_model": mesh, "basis": settings_of_basis(basis)}
-    provenance = Provenance(blade, mesh, settings, code_hash(*CODE))
-    return Rom(**values, directions=directions, provenance=provenance)
-
-
-def _first_frequency(rom: Rom) -> float:
-    """f1 at rest, Hz; nan where the matrices have none."""
-    try:
-        return float(rom.modes(0.0)[0][0] / (2 * np.pi))
-    except (RomError, np.linalg.LinAlgError):
-        return np.nan
+    return Rom(
+        **values,
+        directions=directions,
+        provenance=Provenance(blade, mesh, settings, code_hash(*CODE)),
+    )
 
 
 def _shape_faults(rom: Rom, power: NDArray) -> list[str]:
@@ -190,7 +168,7 @@ def _shape_faults(rom: Rom, power: NDArray) -> list[str]:
         *(rom.M, rom.K, rom.xi, rom.points, rom.camber, rom.sides, rom.growth, rom.Omega_m),
         rom.span,
     )
-    return failed(
+    faults = failed(
         (
             rom.M.shape == (n, n) and rom.K.shape[1:] == (n, n) and rom.K.size > 0,
             f"M {rom.M.shape}, K {rom.K.shape}: need (n, n) and (powers, n, n), none 0",
@@ -238,6 +216,7 @@ def _shape_faults(rom: Rom, power: NDArray) -> list[str]:
             "holds values that are not finite",
         ),
     )
+    return [f"{fault}; see {PAGE[:-1]}" for fault in faults]
 
 
 def _matrix_faults(rom: Rom) -> Iterator[str]:
@@ -308,12 +287,6 @@ def _about(sides: NDArray[np.float64], camber: NDArray[np.float64], chord: float
     """Whether ``sides`` lie behind and ahead of the ``camber`` line, near it."""
     behind, ahead = (sides - camber[:, 1]) * camber[:, 0]
     return np.all(behind < ahead) and max(-behind.min(), ahead.max()) < chord / 2
-
-
-def _compliances(rom: Rom) -> Iterator[str]:
-    """Static compliance of the tip at rest in each direction, smallest and largest place."""
-    for name, values in zip(rom.directions, rom.compliance(0.0).T, strict=True):
-        yield f"{name} compliance of the tip at rest: {values.min():.3g} to {values.max():.3g} m/N"
 
 
 def _growth(rom: Rom) -> str:

@@ -3,6 +3,7 @@
 from geometry.base.contents import file_hash, hashes, unchanged
 from geometry.base.errors import (
     Caution,
+    Check,
     Fault,
     MeshError,
     MeshWarning,
@@ -11,7 +12,9 @@ from geometry.base.errors import (
     WriteError,
     about,
     command,
+    failed,
     printable,
+    require,
     shown,
 )
 from geometry.base.files import (

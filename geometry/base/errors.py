@@ -88,6 +88,25 @@ class MeshWarning(Caution):
     """The mesh can be used, with a disadvantage that the message names."""
 
 
+type Check = tuple[Any, str]  # whether it holds, and the fault where it does not
+
+
+def failed(*checks: Check) -> list[str]:
+    """The faults of the checks that do not hold."""
+    return [fault for holds, fault in checks if not holds]
+
+
+def require(*checks: Check, kind: type[UserError] = MeshError, **about: Any) -> None:
+    """Refuse by the first fault whose check does not hold.
+
+    Parameters
+    ----------
+    kind, **about : of the error that is raised, as of ``UserError``.
+    """
+    if faults := failed(*checks):
+        raise kind(faults[0], **about)
+
+
 @contextmanager
 def about(file: object, kind: type[UserError] = MeshError) -> Iterator[None]:
     """Give errors in the block, of reading a blade's file, the file; all are of the ``kind``."""

@@ -324,9 +324,9 @@ def test_digits_that_lose_the_bending_are_refused(digits, error, files, coarse_m
         ({"tip": "tip.csv", "S": "S.npz"}, {}, "full_matrices"),
         ({}, {}, "full_matrices"),
         ({"tip": "tip.csv", "K": {100.0: "K0.npz"}}, {}, "full_matrices.K"),
-        ({"tip": "tip.csv", "K": {0.0: "K0.npz"}}, {}, "max_speed_rad_s"),
-        ({"tip": "tip.csv"}, {"max_speed_rad_s": 3.0}, "max_speed_rad_s"),
-        ({"tip": "tip.csv"}, {"max_speed_rpm": 3.0}, "max_speed_rad_s"),
+        ({"tip": "tip.csv", "K": {0.0: "K0.npz"}}, {}, "max_speed_rpm"),
+        ({"tip": "tip.csv"}, {"max_speed_rad_s": 3.0}, "max_speed_rpm"),
+        ({"tip": "tip.csv"}, {"max_speed_rpm": 3.0}, "max_speed_rpm"),
         (
             {"tip": "tip.csv", "K": {0.0: "K0.npz"}},
             {"max_speed_rad_s": 3.0, "max_speed_rpm": 3.0},

@@ -214,14 +214,11 @@ def test_constrained_nodes_off_the_root_are_refused(of_calculix):
         [of.rows, np.column_stack([np.repeat(root, 3), np.tile([1, 2, 3], len(root))])]
     )
     of_root = np.arange(len(rows)) >= len(of.rows)
-    M, K = (block(A, of_root.sum(), value) for A, value in ((of.M, 0.0), (of.K, 1e36)))
+    one = eye_array(of_root.sum())
+    M, K = (csr_matrix(block_diag([A, x * one])) for A, x in ((of.M, 0.0), (of.K, 1e36)))
     files = WRITERS["Abaqus, MATRIX INPUT"](of.folder, M, K, rows)
     fom = read_matrices(settings(of.mesh, *files), "given", of.folder)
     assert fom.M.shape == of.M.shape
-
-
-def block(A, n, value):
-    return csr_matrix(block_diag([A, value * eye_array(n)]))
 
 
 def test_other_units_order_or_mesh_are_refused(of_calculix):
@@ -261,6 +258,9 @@ def test_one_triangle_needs_its_word_in_matrix_market_alone(of_calculix):
     )
 
 
+HEAD = "%%MatrixMarket matrix {} {} {}\n% by hand\n2 2 2\n{}"
+
+
 @pytest.mark.parametrize(
     ("file", "text", "fault"),
     [
@@ -278,41 +278,8 @@ def test_one_triangle_needs_its_word_in_matrix_market_alone(of_calculix):
         ("K.mtx", 2 * "1,1, 1,1, 2.0\n", "K.mtx: names an entry twice: one matrix a file"),
         ("K.mtx", 2 * "1 1 2.0\n", "K.mtx: names an entry twice"),
         ("K.mtx", "1,1, 1,1, nan\n", "not finite"),
-        ("K.sti", "1 1 2.0\n", "K.dof: cannot be read"),
-    ],
-)
-def test_file_of_another_kind_is_refused(file, text, fault, tmp_path):
-    (tmp_path / file).write_text(text)
-    refused(ElsewhereError, read_matrix, tmp_path / file, "K", match=fault)
-
-
-HEAD = "%%MatrixMarket matrix {} {} {}\n% by hand\n2 2 2\n{}"
-
-
-@pytest.mark.parametrize(
-    ("file", "text"),
-    [
-        ("K.mtx", HEAD.format("coordinate", "real", "general", "1 1 1.5D+03\n2 2 2.0d0\n")),
-        ("K.mtx", HEAD.format("coordinate", "complex", "general", "1 1 1.5E3 0\n2 2 2 0.0\n")),
-        (
-            "K.mtx",
-            HEAD.format("array", "real", "general", "1.5D3\n0\n0\n2.0\n").replace("2 2 2", "2 2"),
-        ),
-        ("K.mtx", "1, 1, 1.5D+3\n2, 2, 2.0\n"),
-        ("K.mtx", "1,1, 1,1, 1.5D+3\n1,2, 1,2, 2.0\n"),
-        ("K.sti", "1 1 1.5D+3\n2 2 2.0\n"),
-    ],
-)
-def test_exponents_of_fortran_are_read(file, text, tmp_path):
-    """`mmread` ends a number at the D: 1.5."""
-    (tmp_path / file).write_text(text)
-    (tmp_path / "K.dof").write_text("1.1\n1.2\n")
-    assert read_matrix(tmp_path / file, "K").A.toarray().tolist() == [[1500.0, 0.0], [0.0, 2.0]]
-
-
-@pytest.mark.parametrize(
-    ("file", "text", "fault"),
-    [
+        ("J.sti", "1 1 2.0\n", "J.dof: cannot be read"),
+        # entries that would be lost
         (
             "K.mtx",
             HEAD.format("coordinate", "complex", "general", "1 1 1 .5\n2 2 2 0\n"),
@@ -342,21 +309,43 @@ def test_exponents_of_fortran_are_read(file, text, tmp_path):
         ),
     ],
 )
-def test_entries_that_would_be_lost_are_refused(file, text, fault, tmp_path):
+def test_file_that_is_not_read_whole_is_refused(file, text, fault, tmp_path):
     (tmp_path / file).write_text(text)
     (tmp_path / "K.dof").write_text("1.1\n1.2\n")
     refused(ElsewhereError, read_matrix, tmp_path / file, "K", match=fault)
 
 
-def test_directions_are_those_of_the_file(tmp_path):
-    """Also numbers that no node of a solid has."""
-    (tmp_path / "K.mtx").write_text("5,17, 5,17, 2.0\n")
-    assert read_matrix(tmp_path / "K.mtx", "K").rows.tolist() == [[5, 17]]
+@pytest.mark.parametrize(
+    ("file", "text"),
+    [
+        ("K.mtx", HEAD.format("coordinate", "real", "general", "1 1 1.5D+03\n2 2 2.0d0\n")),
+        ("K.mtx", HEAD.format("coordinate", "complex", "general", "1 1 1.5E3 0\n2 2 2 0.0\n")),
+        (
+            "K.mtx",
+            HEAD.format("array", "real", "general", "1.5D3\n0\n0\n2.0\n").replace("2 2 2", "2 2"),
+        ),
+        ("K.mtx", "1, 1, 1.5D+3\n2, 2, 2.0\n"),
+        ("K.mtx", "1,1, 1,1, 1.5D+3\n1,2, 1,2, 2.0\n"),
+        ("K.sti", "1 1 1.5D+3\n2 2 2.0\n"),
+    ],
+)
+def test_exponents_of_fortran_are_read(file, text, tmp_path):
+    """`mmread` ends a number at the D: 1.5."""
+    (tmp_path / file).write_text(text)
+    (tmp_path / "K.dof").write_text("1.1\n1.2\n")
+    assert read_matrix(tmp_path / file, "K").A.toarray().tolist() == [[1500.0, 0.0], [0.0, 2.0]]
 
 
-def test_lines_before_the_rows_are_left_out(tmp_path):
-    (tmp_path / "K.mtx").write_text("** rows\n\n*MATRIX\n5,1, 5,1, 2.0\n")
-    assert read_matrix(tmp_path / "K.mtx", "K").rows.tolist() == [[5, 1]]
+@pytest.mark.parametrize(
+    ("text", "rows"),
+    [
+        ("5,17, 5,17, 2.0\n", [[5, 17]]),  # also numbers that no node of a solid has
+        ("** rows\n\n*MATRIX\n5,1, 5,1, 2.0\n", [[5, 1]]),  # lines before are left out
+    ],
+)
+def test_rows_are_those_of_the_file(text, rows, tmp_path):
+    (tmp_path / "K.mtx").write_text(text)
+    assert read_matrix(tmp_path / "K.mtx", "K").rows.tolist() == rows
 
 
 def test_names_of_rows_are_among_the_files_that_are_watched():

@@ -96,13 +96,6 @@ def test_a_flat_corner_is_cut_from():
     assert flat_corners_first(square, flat).tolist() == [*range(8)]
 
 
-def twisted(points):
-    """One node of a brick beyond its opposite face."""
-    moved = points.copy()
-    moved[np.argmin(abs(points - [240.0, 0, 0]).sum(axis=1)), 0] += 30.0
-    return moved
-
-
 def test_a_flat_cell_has_no_ratio():
     """To round-off, which leaves a volume of either sign; thin ones have one."""
     corners = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0.3, 0.3, 1e-9]])
@@ -114,18 +107,11 @@ def test_a_flat_cell_has_no_ratio():
             assert of_tetrahedra(points, cells).ratios == pytest.approx(ratio)
 
 
-def at_a_quarter(points, cells):
-    """The middle node of an edge of one brick at a quarter of it."""
-    moved = points.copy()
-    a, b = cells[20, [0, 4]]
-    moved[cells[20, 16]] = 0.75 * points[a] + 0.25 * points[b]
-    return moved
-
-
 def test_a_middle_node_at_a_quarter_is_named_and_can_be_moved(tmp_path):
     """As at the tip of a crack: the cell is sound where it is integrated, and flat at a corner."""
     plain = PLATE()
-    points = at_a_quarter(plain.points, plain.cells)
+    points, (a, b) = plain.points.copy(), plain.cells[20, [0, 4]]
+    points[plain.cells[20, 16]] = 0.75 * points[a] + 0.25 * points[b]
     write_inp(tmp_path / "b.inp", points, plain.cells, plain.groups, kind="C3D20")
     error = refused(MeshError, frequencies, tmp_path, "b.inp")
     place = ", ".join(f"{x:.1f}" for x in points[plain.cells[20, 16]])
@@ -137,11 +123,12 @@ def test_a_middle_node_at_a_quarter_is_named_and_can_be_moved(tmp_path):
 
 
 def test_a_cell_with_a_fault_is_to_be_repaired(tmp_path):
-    """Judged by its own eight nodes, before it is split."""
+    """Judged by its own eight nodes, before it is split: one is beyond its opposite face."""
     plain = PLATE()
     cells = plain.cells[:, :8]
     used, own = np.unique(cells, return_inverse=True)
-    points = twisted(plain.points[used])
+    points = plain.points[used]
+    points[np.argmin(abs(points - [240.0, 0, 0]).sum(axis=1)), 0] += 30.0
     groups = {name: np.flatnonzero(np.isin(used, nodes)) for name, nodes in plain.groups.items()}
     write_inp(tmp_path / "b.inp", points, own.reshape(cells.shape), groups, kind="C3D8")
     with pytest.warns(MeshWarning, match="first order"):

@@ -16,11 +16,13 @@ def parts(coarse_mesh):
 
 @pytest.fixture
 def build(coarse_blade, tmp_path):
-    """Write a file, build the blade from it; its summary and groups."""
+    """Write a file, change its text, build the blade from it; its summary and groups."""
 
-    def build(file, write=None, *what, **keys):
+    def build(file, write=None, *what, change=None, **keys):
         if write:
             write(tmp_path / file, *what)
+        if change:
+            (tmp_path / file).write_text(change((tmp_path / file).read_text()))
         out = tmp_path / "out/blade.msh"
         blade = as_meshed(coarse_blade, file, **keys)
         return build_mesh(blade, out, tmp_path / file), exports.parts(out)

@@ -1,6 +1,7 @@
 """Bricks, wedges, pyramids as tetrahedra: volumes, neighbours that agree, files of each format."""
 
-from itertools import pairwise
+from contextlib import nullcontext
+from itertools import pairwise, product
 
 import gmsh
 import numpy as np
@@ -83,15 +84,12 @@ def test_a_warped_brick_of_first_order_keeps_its_volume():
     for seed in range(20):
         points = CUBE + rng.uniform(-0.15, 0.15, CUBE.shape)
         mapped = 0.0
-        for u, a in zip((nodes + 1) / 2, weights / 2, strict=True):
-            for v, b in zip((nodes + 1) / 2, weights / 2, strict=True):
-                for w, c in zip((nodes + 1) / 2, weights / 2, strict=True):
-                    shares = [np.where(CUBE[:, i] == 1, x, 1 - x) for i, x in enumerate((u, v, w))]
-                    signs = np.where(CUBE == 1, 1, -1).T
-                    gradient = [
-                        (signs[i] * shares[i - 2] * shares[i - 1]) @ points for i in range(3)
-                    ]
-                    mapped += a * b * c * np.linalg.det(gradient)
+        along = zip((nodes + 1) / 2, weights / 2, strict=True)
+        for (u, a), (v, b), (w, c) in product(along, repeat=3):
+            shares = [np.where(CUBE[:, i] == 1, x, 1 - x) for i, x in enumerate((u, v, w))]
+            signs = np.where(CUBE == 1, 1, -1).T
+            gradient = [(signs[i] * shares[i - 2] * shares[i - 1]) @ points for i in range(3)]
+            mapped += a * b * c * np.linalg.det(gradient)
         mixed, block = numbered(points, seed)
         size, _ = measured(split(mixed, [block]))
         assert size == pytest.approx(mapped, rel=1e-10)
@@ -146,18 +144,16 @@ def test_a_blade_of_each_format_is_the_same(name, kind, second_order, bricks, bu
     args = to_write(name, bricks, kind, second_order)
     cells, faces = bricks.cells(kind, second_order), bricks.faces(kind, second_order)
     keys = {"root": root, "tip": tip, "interface": {"patches": 4}}
-    if second_order:
+    told = nullcontext() if second_order else pytest.warns(MeshWarning, match="first order")
+    with told:
         summary, found = build(*args, **keys)
-    else:
-        with pytest.warns(MeshWarning, match="first order"):
-            summary, found = build(*args, **keys)
     expected = split(1e-3 * bricks.points, [Block(cells, np.arange(len(cells)))])
     # diagonals of curved faces lie a little other in them
     assert summary.volume == pytest.approx(measured(expected)[0], rel=1e-5)
     facets = len(faces["tip"]) * (2 if kind == "hexahedron" else 1)
     assert [len(found.facets[of]) for of in ENDS] == [facets, facets]
-    told = f"split into {len(expected.cells)} ten-node tetrahedra on {summary.nodes} nodes"
-    assert told in capsys.readouterr().out
+    said = f"split into {len(expected.cells)} ten-node tetrahedra on {summary.nodes} nodes"
+    assert said in capsys.readouterr().out
 
 
 def test_a_twisted_brick_is_refused_by_its_number(bricks, refusal):
@@ -172,9 +168,7 @@ def test_a_twisted_brick_is_refused_by_its_number(bricks, refusal):
 
 def test_complete_cells_of_gmsh_are_read(tmp_path):
     """27, 18 and 14 nodes: those within faces and cells are left out."""
-    gmsh.initialize(interruptible=False)
-    try:
-        gmsh.option.setNumber("General.Terminal", 0)
+    with session("test"):
         gmsh.model.occ.addBox(0, 0, 0, 1, 1, 1)
         gmsh.model.occ.synchronize()
         for curve in gmsh.model.getEntities(1):
@@ -186,8 +180,6 @@ def test_complete_cells_of_gmsh_are_read(tmp_path):
         gmsh.model.mesh.generate(3)
         gmsh.model.mesh.setOrder(2)
         gmsh.write(str(tmp_path / "box.msh"))
-    finally:
-        gmsh.finalize()
     mesh = read_mesh_file(tmp_path / "box.msh").without_unused()
     assert mesh.made.startswith("8 hexahedron27 on")
     assert measured(mesh)[0] == pytest.approx(1, rel=1e-10)
@@ -199,9 +191,8 @@ def test_complete_wedges_and_pyramids_have_gmshs_order(kind, nodes, tmp_path):
     of = KINDS[kind.rstrip("0123456789")]
     corners = CELLS[kind.rstrip("0123456789")][0]
     middles = corners[of.edges].mean(axis=1)
-    known = _meshio_to_gmsh_order({15: "wedge15", 13: "pyramid13"}[nodes], np.arange(nodes)[None])[
-        0
-    ]
+    without = {15: "wedge15", 13: "pyramid13"}[nodes]
+    known = _meshio_to_gmsh_order(without, np.arange(nodes)[None])[0]
     inner = np.full((int(kind[-2:]) - nodes, 3), 0.3)
     points = np.vstack([corners, middles, inner])
     cell = np.append(known, np.arange(nodes, len(points)))

@@ -9,9 +9,8 @@ import pytest
 import xarray as xr
 from refused import refused
 
-from rom.__main__ import main
 from rom.coarser import coarser
-from rom.elsewhere import UNCHECKED, read_elsewhere, report
+from rom.elsewhere import described, read_elsewhere
 from rom.model import RomError
 from simulate.errors.accuracy import require_model
 from simulate.errors.model_errors import ModelErrors
@@ -57,21 +56,23 @@ def test_accuracy_takes_a_foreign_model_and_says_what_it_does_not_know(coarse_ro
     assert half.modes(0.0)[0][0] == pytest.approx(ours.modes(0.0)[0][0], rel=1e-6)
 
 
+def with_values(A, *changes):
+    """A copy with other values at some places."""
+    A = A.copy()
+    for at, value in changes:
+        A[at] = value
+    return A
+
+
 def ill(rom):
     """Faults by the word that the message has for them: changes of the file."""
-    skewed = rom.M.copy()
-    skewed[0, 1] += 0.1 * abs(rom.M).max()
-    loose = rom.K - 2 * rom.K[0] * (np.arange(len(rom.K)) == 0)[:, None, None]
-    soft = rom.K.copy()
-    soft[1] = -2 * rom.K[0] / rom.Omega_m**2
-    soft[2:] = 0
+    skewed = with_values(rom.M, ((0, 1), rom.M[0, 1] + 0.1 * abs(rom.M).max()))
+    loose = with_values(rom.K, (0, -rom.K[0]))
+    soft = with_values(rom.K, (1, -2 * rom.K[0] / rom.Omega_m**2), (slice(2, None), 0))
     n, camber = len(rom.xi), rom.camber
-    points = rom.line(rom.xi)
-    points[1, 2] += 0.02
+    points = rom.line(rom.xi) + 0.02 * np.outer(np.arange(n) == 1, [0, 0, 1])
     K = (("power", "dof", "dof_"), rom.K)
-    flat = rom.M.copy()
-    flat[-1], flat[:, -1] = 0, 0
-    flat[-1, -1] = 1e-25
+    flat = with_values(rom.M, (-1, 0), ((slice(None), -1), 0), ((-1, -1), 1e-25))
     return {
         "M: not symmetric": {"M": (("dof", "dof_"), skewed)},
         "M: not positive definite": {"M": (("dof", "dof_"), -rom.M)},
@@ -141,18 +142,11 @@ def test_each_fault_is_a_line_with_its_file(fault, coarse_rom, tmp_path):
     lines = str(caught.value).splitlines()
     assert any(fault in line for line in lines), lines
     assert all(line.startswith(f"{path}: ") for line in lines)
-    assert main(["check", str(path)]) == 2
 
 
-def test_command_line_shows_what_it_sees_and_what_it_cannot(coarse_rom, tmp_path, capsys):
-    path = written(coarse_rom, tmp_path / "mine.nc")
-    assert main(["check", str(path)]) == 0
-    shown = capsys.readouterr().out
-    assert f"{coarse_rom.f1:.2f}" in shown
-    assert all(line in shown for line in UNCHECKED)
+def test_file_of_text_is_refused(tmp_path):
     (tmp_path / "text.nc").write_text("M")
-    assert main(["check", str(tmp_path / "text.nc")]) == 2
-    assert "cannot be read as NetCDF 4" in capsys.readouterr().err
+    refused(RomError, read_elsewhere, tmp_path / "text.nc", "mine", match="read as NetCDF 4")
 
 
 def test_points_have_a_strip_each(coarse_rom, tmp_path):
@@ -186,10 +180,9 @@ def test_superelements_of_each_speed_are_not_one_model(coarse_rom):
     assert trap.modes(middle)[0][0] > 3 * coarse_rom.modes(middle)[0][0]
 
 
-def test_report_of_ours_has_the_growth(coarse_rom, tmp_path):
-    path = written(
-        coarse_rom,
-        tmp_path / "mine.nc",
-        growth=(("growth_power", "growth_xi"), coarse_rom.growth),
-    )
-    assert any(re.match(r"growth of the tip at Omega_m: 0\.0", line) for line in report(path).shown)
+def test_growth_and_f1_are_described(coarse_rom, tmp_path):
+    growth = (("growth_power", "growth_xi"), coarse_rom.growth)
+    rom = read_elsewhere(written(coarse_rom, tmp_path / "mine.nc", growth=growth), "mine")
+    said = "\n".join(described(rom))
+    assert f"frequencies at rest (Hz): {coarse_rom.f1:.2f}" in said
+    assert re.search(r"growth of the tip at Omega_m: 0\.0", said)

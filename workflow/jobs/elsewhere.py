@@ -5,7 +5,7 @@ from pathlib import Path
 from fem.elsewhere import read_matrices
 from fem.matrices import Matrices
 from geometry.elsewhere import read_blade
-from rom.elsewhere import UNCHECKED, check_elsewhere, read_elsewhere
+from rom.elsewhere import UNCHECKED, described, read_elsewhere
 from rom.full_model import solve as solve_at
 
 
@@ -28,5 +28,5 @@ def take(blade: str, source: str, names: dict[str, str], rom: str) -> None:
     """Take a reduced model, if its checks find no fault."""
     taken = read_elsewhere(source, Path(blade).stem)
     taken.require_directions(names["directions"])
-    print(*check_elsewhere(taken).shown, "not checked:", *UNCHECKED, sep="\n")
+    print(*described(taken), "not checked:", *UNCHECKED, sep="\n")
     taken.save(rom)
