@@ -23,7 +23,7 @@ from simulate.scene import Scene
 from simulate.sweeps.result_types import numbers_of
 from workflow.markdown import change, table, two_digits
 from workflow.paper import blocks
-from workflow.study import blade_tables, interface, trade_table
+from workflow.study import interface, mesh_convergence, trade_table
 from workflow.study.stability import told as stability
 from workflow.summary import (
     OVER_F1,
@@ -143,9 +143,9 @@ COMPUTED = (
     *blocks.COMPUTED,
     ("printed", "results/summary.json", printed),
     ("summary", "results/summary.json", scenes),
-    ("mesh", "results/experiments/mesh/table.json", blade_tables.mesh_table),
+    ("mesh", "results/experiments/mesh/table.json", mesh_convergence.table),
     ("bases", f"{KEPT}/bases.csv", kept),
-    ("rotor37", "results/experiments/frequencies/table.json", blade_tables.prestress_table),
+    ("rotor37", f"{KEPT}/rotor37.csv", kept),
     ("levels", TRADE, trade_table.by_level),
     ("converges", "results/experiments/interface/table.json", interface.results),
     ("nodes", f"{KEPT}/nodes.csv", kept),
@@ -157,7 +157,7 @@ COMPUTED = (
     ("limits", "results/experiments/stability/table.json", stability.limits),
     ("extremes", "results/figures/stability-matrix.json", stability.extremes),
     ("sweeps", "results/figures/stability-sweeps.json", stability.sweeps),
-    ("cuts", "results/experiments/frequencies/table.json", blade_tables.edge_cuts_table),
+    ("cuts", f"{KEPT}/cuts.csv", kept),
     ("inputs", "tests/inputs/counts.json", inputs),
     ("bricks", "tests/fem/bricks.json", bricks),
     ("growth", f"{KEPT}/scaling.csv", kept),

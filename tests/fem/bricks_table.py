@@ -25,7 +25,7 @@ from geometry.base import ROOT, MeshWarning, check_settings, write_json  # noqa:
 from geometry.blade import Blade  # noqa: E402
 from geometry.mesh import build_mesh  # noqa: E402
 from rom.modes import ShiftInvert  # noqa: E402
-from workflow.study.blade_tables import common_order, limits  # noqa: E402
+from workflow.study.mesh_convergence import common_order, limits  # noqa: E402
 
 JSON = HERE / "bricks.json"
 SIZES = (2**0.5, 1.0, 0.5**0.5)  # of tetrahedra over the blade's own: the finest of its mesh study

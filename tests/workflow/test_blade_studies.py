@@ -9,7 +9,7 @@ from geometry.base import read_mapping, write_json
 from geometry.hats import hats
 from rom.modes import ShiftInvert
 from workflow import readme
-from workflow.study import blade_tables, frequencies
+from workflow.study import frequencies, mesh_convergence
 
 ROOT = Path(__file__).parents[2]
 MODES = 10
@@ -33,7 +33,7 @@ def levels(order):
     for size, factor in zip(SIZES, FACTORS, strict=True):
         step = (size / SIZES[OWN]) ** order
         rest, speed = LIMIT * (1 + SLOPE * step), 1.1 * LIMIT * (1 + 0.8 * SLOPE * step)
-        row = made(blade_tables.OWN if factor == 1 else str(factor), [rest, rest, speed])
+        row = made(mesh_convergence.OWN if factor == 1 else str(factor), [rest, rest, speed])
         nodes = int(2e4 * FACTORS[OWN] / factor**2)
         deflection = TIP * (1 - 2e-4 * step)
         row["numbers"] |= {"element_size_mm": size, "nodes": nodes, "tip_deflection_m": deflection}
@@ -50,13 +50,13 @@ def of_meshes():
 @pytest.mark.parametrize("order", [0.9, 1.4, 2.0, 3.3])
 def test_the_order_and_limit_of_a_sequence_are_recovered(order):
     values = np.array([row["numbers"]["frequencies_Hz"][0] for row in levels(order)])
-    found = blade_tables.common_order(SIZES[-3:], values[-3:])
+    found = mesh_convergence.common_order(SIZES[-3:], values[-3:])
     assert found == pytest.approx(order, abs=1e-3)  # of the search
-    np.testing.assert_allclose(blade_tables.limits(SIZES, values, order), LIMIT, rtol=1e-14)
+    np.testing.assert_allclose(mesh_convergence.limits(SIZES, values, order), LIMIT, rtol=1e-14)
 
 
 def test_errors_are_against_the_limit_and_the_band_is_that_of_the_finest(of_meshes):
-    found = blade_tables.numbers(of_meshes)
+    found = mesh_convergence.numbers(of_meshes)
     at_rest = found["at_rest_Hz"]
     # the order is found to 1e-3
     np.testing.assert_allclose(at_rest["error"][OWN], SLOPE, rtol=5e-3)
@@ -66,13 +66,13 @@ def test_errors_are_against_the_limit_and_the_band_is_that_of_the_finest(of_mesh
 
 
 def test_the_coarsest_size_does_not_affect_the_order(of_meshes):
-    order = blade_tables.numbers(of_meshes)["order"]
+    order = mesh_convergence.numbers(of_meshes)["order"]
     of_meshes[0]["numbers"]["frequencies_Hz"][0] = list(1.01 * LIMIT)
-    assert blade_tables.numbers(of_meshes)["order"] == order
+    assert mesh_convergence.numbers(of_meshes)["order"] == order
 
 
 def test_table_states_limits_errors_and_bands(of_meshes):
-    text = blade_tables.mesh_table(of_meshes)
+    text = mesh_convergence.table(of_meshes)
     assert "4.96 mm (5,000 nodes)" in text and "observed order 1.40" in text
     assert "| 1 | 250.00 | +0.05 ± 0.04 | 275.00 | +0.04 ± 0.03 |" in text
     assert "0.4000 mm, error -0.02 ± 0.02 %" in text
@@ -87,7 +87,7 @@ def test_the_sizes_of_the_meshes_are_in_the_ratios_of_which_the_limit_is():
             read_mapping(ROOT / f"workflow/blades/{blade}.yaml")["mesh"]["element_size_mm"]
             for blade in blades
         ]
-        own = sizes[[*rows].index(blade_tables.OWN)]
+        own = sizes[[*rows].index(mesh_convergence.OWN)]
         np.testing.assert_allclose(sizes, own * np.array(FACTORS), rtol=1e-15)
 
 
@@ -115,51 +115,7 @@ def test_frequencies_and_deflection_of_a_blade(coarse_blade, coarse_files, coars
     assert found["tip_deflection_m"] == pytest.approx(of_node, rel=0.05)
 
 
-def test_the_crossing_is_that_of_a_stiffening_beam():
-    """omega^2 = omega_0^2 + c Omega^2 crosses k Omega at omega_0 / sqrt(k^2 - c)."""
-    omega = np.sqrt(300.0**2 + 6 * np.square(SPEEDS))
-    assert blade_tables.crossing(SPEEDS, omega, 4) == pytest.approx(1 / np.sqrt(10), rel=1e-8)
-    assert np.isnan(blade_tables.crossing(SPEEDS, 2 * omega, 4))  # beyond the last speed
-
-
-def test_crossing_with_a_fourth_power():
-    """9e4 + 6 x + 1e-4 x^2 crosses 16 x at x = 1e4 and 9e4: the first counts."""
-    speeds = [0.0, 60.0, 120.0]
-    squares = np.square(speeds)
-    omega = np.sqrt(9e4 + 6 * squares + 1e-4 * squares**2)
-    assert blade_tables.crossing(speeds, omega, 4) * omega[0] == pytest.approx(100, rel=1e-8)
-
-
-REST = np.array([40.0, 200.0])
-OF_ROTOR = [
-    made("nonlinear", [REST, 1.1 * REST, 1.4 * REST], group="prestress"),
-    made("linear", [REST, 1.2 * REST, 1.5 * REST], group="prestress"),
-    made("running", [0.9 * REST, REST, 1.3 * REST], group="geometry"),
-    made("0.8 instead of 1.2", [[39.6, 200.0]] * 3, group="cut", against="nonlinear"),
-    made("2 instead of 1.2", [[40.8, 198.0]] * 3, group="cut", against="nonlinear"),
-]
-
-
-def test_a_table_has_either_prestress_at_speed_and_both_geometries_at_rest():
-    assert blade_tables.prestress_table(OF_ROTOR).splitlines()[2:9] == [
-        "| at rest | 40.0 | 200.0 |",
-        "| at rest, geometry as it runs | 36.0 | 180.0 |",
-        "| 50 rad/s, nonlinear | 44.0 | 220.0 |",
-        "| 50 rad/s, linear | 48.0 | 240.0 |",
-        "| 100 rad/s, nonlinear | 56.0 | 280.0 |",
-        "| 100 rad/s, linear | 60.0 | 300.0 |",
-        "| 100 rad/s, nonlinear, geometry as it runs | 52.0 | 260.0 |",
-    ]
-
-
-def test_cuts_are_compared_with_the_blade_s_own():
-    assert blade_tables.edge_cuts_table(OF_ROTOR).splitlines()[2:] == [
-        "| 0.8 instead of 1.2 | -1.00 % | +0.00 % |",
-        "| 2 instead of 1.2 | +2.00 % | -1.00 % |",
-    ]
-
-
 def test_a_page_takes_a_study_where_it_has_been_run(of_meshes, tmp_path):
     write_json(of_meshes, tmp_path / "results/experiments/mesh/table.json")
     pages = readme.generated(readme.read_pages(ROOT), tmp_path)
-    assert blade_tables.mesh_table(of_meshes) in pages["fem/README.md"]
+    assert mesh_convergence.table(of_meshes) in pages["fem/README.md"]

@@ -74,7 +74,7 @@ from workflow.paper.figures import (
     spectrograms,
 )
 from workflow.paper.measure import coating
-from workflow.study import blade_tables
+from workflow.study import mesh_convergence
 from workflow.study.stability import told as stability
 
 CROSSING_4 = 1 / np.sqrt(16 - STIFFENING)  # f1^2 = 1 + 5.6 Omega^2 meets k^2 Omega^2
@@ -430,7 +430,7 @@ FIGURES = {
     "design": lambda get: designs.draw(get("design_rows")),
     "sensitivity": lambda get: designs.sensitivity(*read(designs, get("sobol_rows"))),
     "stress": lambda get: stress.draw(*AT_ONE_SIDE),
-    "mesh": lambda get: blade_tables.draw(get("of_meshes")),
+    "mesh": lambda get: mesh_convergence.draw(get("of_meshes")),
     "stability": lambda get: stability.draw([*ENGAGED, *INTERMITTENT]),
     "worst": lambda get: long_times.growth(*read(long_times, get("cases"), "growth")),
 }

@@ -1,8 +1,8 @@
-"""Frequencies of blades, in tables: with other meshes, prestress, running geometry and edges.
+"""Error of a mesh: frequencies of a blade over the size of its elements, as table and figure.
 
 Rows are those of experiments with ``frequencies.numbers``.
 
-Error of the mesh, from extrapolated limits of the frequencies and of the tip deflection: Celik,
+The error is from extrapolated limits of the frequencies and of the tip deflection: Celik,
 Ghia, Roache and others (2008), Procedure for estimation and reporting of uncertainty due to
 discretization, J. Fluids Eng. 130: an order p observed on the three finest sizes, Richardson's
 limit from the two finest, and a band of 1.25 times the difference of the finest from the limit. On
@@ -21,7 +21,6 @@ from matplotlib.ticker import NullLocator, StrMethodFormatter
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import minimize_scalar
 
-from simulate.sweeps.crossings import crossings_of
 from workflow import markdown
 from workflow.experiment.row import ExperimentRow
 from workflow.figures import style
@@ -30,11 +29,6 @@ ORDERS = (0.5, 4.0)  # range of the order; at most 4 for frequencies of quadrati
 SAFETY = 1.25  # factor of Celik and others, for three sizes and an observed order
 OWN = "own size"  # row of the blade itself
 MARKERS = [*"os^vD<>pPX"]  # one for each mode
-PRESTRESSES = ("nonlinear", "linear")  # rows with either
-CUT = "cut"  # group of the rows with other cuts
-RUNS = "geometry as it runs"  # at the last speed
-MODES = 8  # of the tables of rotor 37
-HEADS = [f"mode {m}" for m in range(1, MODES + 1)]
 
 
 def numbers(rows: Sequence[ExperimentRow]) -> dict[str, Any]:
@@ -93,7 +87,7 @@ def _against_limit(sizes: list[float], values: NDArray[np.float64], order: float
     }
 
 
-def mesh_table(rows: Sequence[ExperimentRow]) -> str:
+def table(rows: Sequence[ExperimentRow]) -> str:
     """Markdown: sizes, and a table with the errors of the blade's own size for each mode."""
     study = numbers(rows)
     sizes, nodes, index = study["element_size_mm"], study["nodes"], study["own"]
@@ -173,53 +167,3 @@ def _nodes(axes: Axes, sizes: NDArray[np.float64], nodes: list[int]) -> None:
     top.set_xticks(sizes, [f"{n:,}" for n in nodes])
     top.xaxis.set_minor_locator(NullLocator())
     top.set_xlabel("nodes")
-
-
-def prestress_table(rows: Sequence[ExperimentRow]) -> str:
-    """Frequencies at three speeds with either prestress, and the crossing of engine order 4.
-
-    Also with the geometry taken for that at the last speed.
-    """
-    speeds, f = rows[0]["numbers"]["speeds_rad_s"], _frequencies(rows)
-    lines = [_line("at rest", f["nonlinear"][0]), _line(f"at rest, {RUNS}", f["running"][0])]
-    for j in (1, 2):
-        lines += [_line(f"{speeds[j]:g} rad/s, {name}", f[name][j]) for name in PRESTRESSES]
-    lines += [_line(f"{speeds[2]:g} rad/s, nonlinear, {RUNS}", f["running"][2])]
-    omega = {name: 2 * np.pi * f[name][:, 0] for name in PRESTRESSES}
-    crossings = ", ".join(f"{crossing(speeds, omega[n], 4):.4f} ({n})" for n in PRESTRESSES)
-    shown = markdown.table(["Hz", *HEADS], lines)
-    return f"{shown}\n\nEngine order 4 crosses f1 at Ω / f1(0) = {crossings}."
-
-
-def crossing(speeds: ArrayLike, omega: ArrayLike, k: int) -> float:
-    """Speed over omega(0) at which k Omega = omega(Omega); nan above the last of the ``speeds``.
-
-    Between the three speeds omega^2 is interpolated by a parabola in Omega^2.
-    """
-    over_rest = np.array([speeds, omega]) / omega[0]
-    squares = np.polyfit(*over_rest**2, 2)
-    met = crossings_of(
-        lambda speed: np.sqrt([np.polyval(squares, speed**2)]), [k], 0.0, over_rest[0, -1]
-    )
-    return met[0][2] if met else np.nan
-
-
-def edge_cuts_table(rows: Sequence[ExperimentRow]) -> str:
-    """Relative change of the frequencies at rest for other cuts of the edges."""
-    first = {name: f[0] for name, f in _frequencies(rows).items()}
-    changes = {
-        row["row"]: first[row["row"]] / first[row["against"]] - 1
-        for row in rows
-        if row["group"] == CUT
-    }
-    lines = [[name, *(f"{100 * change:+.2f} %" for change in f)] for name, f in changes.items()]
-    return markdown.table(["at rest, cut % of chord", *HEADS], lines)
-
-
-def _frequencies(rows: Sequence[ExperimentRow]) -> dict[str, NDArray[np.float64]]:
-    """Frequencies (speeds, ``MODES``), Hz, by row."""
-    return {row["row"]: np.array(row["numbers"]["frequencies_Hz"])[:, :MODES] for row in rows}
-
-
-def _line(label: str, f: NDArray[np.float64]) -> list[str]:
-    return [label, *(f"{value:.1f}" for value in f)]
