@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from geometry.base import in_rpm, shifted
+from geometry.base import shifted
 from geometry.hats import middles
 from simulate.scene import LEADING, Clearance
 
@@ -51,10 +51,11 @@ class Case:
         return {"casing__ramp_rounds": None, "casing__ramp": ramp}
 
 
-class _Dice(np.random.Generator):
+class Dice(np.random.Generator):
     """Random numbers of one case."""
 
     def chance(self, share: float) -> bool:
+        """Whether something of this probability happens."""
         return bool(self.random() < share)
 
     def decades(self, low: float, high: float) -> float:
@@ -72,7 +73,7 @@ def draw(number: int, patches: int) -> Case:
 
     No number of strips is refused as such: one, as many as patches, or twice as many.
     """
-    dice = _Dice(np.random.PCG64([SEED, number]))
+    dice = Dice(np.random.PCG64([SEED, number]))
     scheme = dice.among({EXPLICIT: 1, EXACT: 1})
     law = _law(dice)
     profile = law["kind"] == "plastic" and dice.chance(0.2)
@@ -110,54 +111,15 @@ def draw(number: int, patches: int) -> Case:
     return replace(case, ramp=dice.uniform(0.02, 0.6)) if grows else case
 
 
-def draw_changing(number: int, patches: int) -> Case:
-    """Case ``number`` with a travelling harmonic, a changing clearance and, most, friction.
-
-    Friction 1e-3 to 1 on a plastic liner; harmonics up to three times as fast as the blade, both
-    ways; two to five changes of the distortion. Elastic laws become plastic that hardly yield.
-    """
-    case, dice = draw(number, patches), _Dice(np.random.PCG64([SEED, number, 1]))
-    scene = {**case.scene, "contact": {}, "liner": {**case.scene["liner"], "worn_through": "stop"}}
-    law = scene["liner"]["law"]
-    if law["kind"] == "elastic":
-        law |= {"kind": "plastic", "K": min(1e6 * law["E"], 1e9), "sigma_Y": 0.0}
-    elif law["kind"] == "plastic" and case.scheme == EXACT and dice.chance(0.67):
-        scene["contact"] = {"friction": dice.decades(1e-3, 1)}
-    (harmonic,) = scene["casing"]["harmonics"]
-    speed = 2 * np.pi * F1 * scene["speeds"]["over_f1"][0]  # about Omega, rad/s
-    wave = {
-        "order": int(dice.uniform(1, 9)),
-        "amplitude_um": harmonic["amplitude_um"] * dice.decades(0.01, 1),
-        "speed_rpm": in_rpm(speed * dice.among({1.0: 0.1, dice.uniform(-3, 3): 0.9})),
-    }
-    scene["casing"] = {"harmonics": [harmonic, wave], "ramp_rounds": 0.0}
-    parts = np.sort(dice.uniform(0.02, 1, round(dice.uniform(2, 5))))
-    factors = 0.0, *dice.uniform(0, 1.2, len(parts))
-    return replace(case, scene=scene, table=((0.0, *map(float, parts)), factors))
-
-
-def draw_long(number: int, patches: int) -> Case:
-    """Case ``number`` by piecewise-exact with steps in which the tip passes 1 to 4 footprints.
-
-    At speeds at which such steps may resolve the first mode; with at most some 20 rods in a
-    footprint, as many more in a step take hours with the steps of a reference.
-    """
-    case, dice = draw(number, patches), _Dice(np.random.PCG64([SEED, number, 2]))
-    rods = {"rods_per_round": min(case.scene["liner"]["rods_per_round"], 16381)}
-    speed = {"over_f1": [dice.uniform(0.1, 0.4)]}
-    scene = {**case.scene, "speeds": speed, "liner": {**case.scene["liner"], **rods}}
-    return replace(case, scene=scene, scheme=EXACT, footprints=dice.decades(1, 4))
-
-
 def _some(
-    dice: _Dice, usual: float, decades: tuple[float, float], none: float, refused: float
+    dice: Dice, usual: float, decades: tuple[float, float], none: float, refused: float
 ) -> float:
     """The usual value, one of the range ``decades``, ``none``, or ``refused``."""
     kind = dice.among({"usual": 0.4, "any": 0.42, "none": 0.15, "refused": 0.03})
     return {"usual": usual, "any": dice.decades(*decades), "none": none, "refused": refused}[kind]
 
 
-def _law(dice: _Dice) -> dict[str, Any]:
+def _law(dice: Dice) -> dict[str, Any]:
     kind = dice.among({"plastic": 0.74, "elastic": 0.18, "rigid": 0.08})
     stiff = dice.chance(0.03)  # refused above 1250: 1e13 Pa
     E = dice.decades(2e3, 1e6) if stiff else dice.decades(1e-3, 1.25e3)
@@ -173,7 +135,7 @@ def _law(dice: _Dice) -> dict[str, Any]:
     return law
 
 
-def _speed(dice: _Dice) -> float:
+def _speed(dice: Dice) -> float:
     """Speed over f1(0); refused above Omega_m, about 0.4."""
     slow, any_speed, too_fast = (
         dice.decades(1e-3, 0.4),
@@ -183,7 +145,7 @@ def _speed(dice: _Dice) -> float:
     return dice.among({slow: 0.5, any_speed: 0.47, too_fast: 0.03})
 
 
-def _gap_and_casing(dice: _Dice, strips: int) -> dict[str, Any]:
+def _gap_and_casing(dice: Dice, strips: int) -> dict[str, Any]:
     """Most casings close the gap of the first strip at its start, some by more than the liner."""
     scale = dice.among({1.0: 0.3, dice.decades(1e-3, 1e3): 0.67, 0.0: 0.03})
     first, last = (scale * value for value in GAPS)
@@ -210,26 +172,26 @@ def _gap_and_casing(dice: _Dice, strips: int) -> dict[str, Any]:
     }
 
 
-def _rods(dice: _Dice) -> int:
+def _rods(dice: Dice) -> int:
     """Rods per round; refused if wider than twice the footprint."""
     return round(dice.among({dice.decades(1, 350): 0.05, dice.decades(700, 1e6): 0.5, 2048: 0.45}))
 
 
-def _worn_through(dice: _Dice, scheme: str, law: Mapping[str, Any], profile: bool) -> str:
+def _worn_through(dice: Dice, scheme: str, law: Mapping[str, Any], profile: bool) -> str:
     """``casing`` in some cases, which is refused for central differences."""
     exact = 0.2 if law["kind"] == "plastic" and not profile else 0.0
     share = exact if scheme == EXACT else 0.02
     return "casing" if dice.chance(share) else "stop"
 
 
-def _contact(dice: _Dice) -> dict[str, Any]:
+def _contact(dice: Dice) -> dict[str, Any]:
     profile = {"edge_drop_um": shifted(dice.decades(1e-6, 1e-3), 6)}
     if dice.chance(0.5):
         profile["tilt"] = dice.uniform(-0.1, 0.1)
     return {"profile": profile, "tangential": True}
 
 
-def _step(dice: _Dice, scheme: str) -> float:
+def _step(dice: Dice, scheme: str) -> float:
     """Step over the limit; one in five of central differences exceeds it and is refused."""
     within, past, coarse = dice.decades(0.05, 1), dice.decades(1, 20), dice.decades(20, 2000)
     if scheme == EXPLICIT:
