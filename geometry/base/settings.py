@@ -152,12 +152,13 @@ def _as_now(model: type[Settings], values: Any) -> Any:
     if not isinstance(values, dict):
         return values
     fields, read = model.model_fields, dict(values)
-    for key in [key for key in values if key in FORMER and key not in fields]:
+    for key in values.keys() & FORMER.keys() - fields.keys():
         former = FORMER[key]
-        if former.now in values:
+        if values[key] is not None and values.get(former.now) is not None:
             raise SettingsError(f"is given as {former.now}, too", key=key)
         if former.now in fields:
-            read[former.now] = converted(read.pop(key), former.to_now)
+            value = read.pop(key)
+            read |= {} if value is None else {former.now: converted(value, former.to_now)}
     return read
 
 

@@ -66,6 +66,8 @@ def test_a_key_in_both_units_is_refused():
     both = {"order": 2, "amplitude_m": 1e-5, "amplitude_um": 10}
     error = refused(SettingsError, check_settings, Harmonic, both, "")
     assert "amplitude_m: is given as amplitude_um, too" in str(error)
+    for none in ({"amplitude_m": None}, {"amplitude_um": None, "amplitude_m": 1e-5}):
+        assert check_settings(Harmonic, both | none, "").size(1.0) == 1e-5
 
 
 def test_what_is_written_later_counts_in_either_unit():
