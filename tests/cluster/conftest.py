@@ -1,5 +1,4 @@
 from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
 from cluster import Cluster, missing
@@ -10,7 +9,6 @@ def slurm(tmp_path_factory) -> Iterator[Cluster]:
     """SLURM of one node on this machine, where its packages and the plugin are installed."""
     if lacking := missing():
         pytest.skip(lacking)
-    folder: Path = tmp_path_factory.mktemp("slurm")
-    with Cluster(folder) as cluster:
+    with Cluster(tmp_path_factory.mktemp("slurm")) as cluster:
         yield cluster
     assert cluster.processes_in() == []

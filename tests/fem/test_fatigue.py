@@ -15,6 +15,7 @@ FULL = np.array([(0, 3, 5), (3, 1, 4), (5, 4, 2)])  # the tensor of its six comp
 PHASE = 2 * np.pi * np.arange(48) / 48
 XX, YY, XY = np.eye(6)[[0, 1, 3]]
 STRENGTH = {"endurance_MPa": 500.0, "yield_MPa": 900.0, "ultimate_MPa": 1000.0}
+WITH_SLOPE = Fatigue(**STRENGTH, line="goodman", slope_k=9)
 
 
 def largest_cycle(sigma):
@@ -100,22 +101,16 @@ def test_strengths_out_of_order_are_refused(yield_MPa):
         check_settings(Fatigue, STRENGTH | {"yield_MPa": yield_MPa}, "mine.yaml")
 
 
-def with_slope(line="goodman"):
-    return Fatigue(**STRENGTH, line=line, slope_k=9)
-
-
 def test_ten_million_cycles_at_the_endurance_crack_and_one_takes_its_share():
     """Miner by hand: n cycles of amplitude S at mean m take n/1e7 (S/S_a(m))^9."""
     n = 40
     signal = np.append(500e6 * np.cos(np.pi * np.arange(2 * n)), 500e6)  # n whole cycles, mean 0
-    assert damage(signal, with_slope()) == pytest.approx(n / 1e7, rel=1e-12, abs=0)
-    assert damage(signal / 2, with_slope()) == pytest.approx(n / 1e7 / 2**9, rel=1e-12, abs=0)
+    assert damage(signal, WITH_SLOPE) == pytest.approx(n / 1e7, rel=1e-12, abs=0)
+    assert damage(signal / 2, WITH_SLOPE) == pytest.approx(n / 1e7 / 2**9, rel=1e-12, abs=0)
     raised = 200e6 + signal / 4  # Goodman: 400 MPa at a mean of 200, amplitude 125
-    assert damage(raised, with_slope()) == pytest.approx(
-        n / 1e7 * (125 / 400) ** 9, rel=1e-12, abs=0
-    )
-    assert damage(np.full(9, 1e8), with_slope()) == 0.0
-    assert damage(900e6 + signal / 4, with_slope()) == n  # beyond yield each cycle cracks
+    assert damage(raised, WITH_SLOPE) == pytest.approx(n / 1e7 * (125 / 400) ** 9, rel=1e-12, abs=0)
+    assert damage(np.full(9, 1e8), WITH_SLOPE) == 0.0
+    assert damage(900e6 + signal / 4, WITH_SLOPE) == n  # beyond yield each cycle cracks
 
 
 def test_the_damage_of_a_made_signal_is_its_rainflow_count_by_hand():
@@ -126,7 +121,7 @@ def test_the_damage_of_a_made_signal_is_its_rainflow_count_by_hand():
     for span, mean, count in [*listed, (6, 1, 0.5)]:
         S, S_a = 25 * span, 500 * (1 - max(50 * mean, 0) / 1000)
         expected += count / 1e7 * (S / S_a) ** 9
-    assert damage(signal, with_slope()) == pytest.approx(expected, rel=1e-12, abs=0)
+    assert damage(signal, WITH_SLOPE) == pytest.approx(expected, rel=1e-12, abs=0)
 
 
 def test_the_stress_along_its_largest_change_has_its_range_and_mean():

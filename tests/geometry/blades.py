@@ -4,6 +4,7 @@ from pathlib import Path
 
 import meshio
 import numpy as np
+from exports import groups
 
 from geometry.base import check_settings
 from geometry.blade import SOURCES, Blade, Sections
@@ -22,15 +23,7 @@ def given(blade: Blade, **settings) -> Blade:
 
 def nodes_of(mesh: meshio.Mesh, group: str) -> np.ndarray:
     """Points of the facets of a physical group."""
-    return mesh.points[np.unique(facets_of(mesh, group))]
-
-
-def facets_of(mesh: meshio.Mesh, group: str) -> np.ndarray:
-    """Facets (k, 6) of a physical group."""
-    tag, dimension = mesh.field_data[group]
-    assert dimension == 2
-    groups = zip(mesh.cells, mesh.cell_data["gmsh:physical"], strict=True)
-    return np.vstack([b.data[tags == tag] for b, tags in groups if b.type == "triangle6"])
+    return mesh.points[np.unique(groups(mesh)[group])]
 
 
 # Ten-node tetrahedron: corners, then the middles of these edges.
@@ -67,7 +60,7 @@ def first_frequency(blade: Blade, path: Path) -> float:
 def camber_line(path) -> np.ndarray:
     """Camber line (101, 3), m, x, y, z, of the tip of ``blade.msh``."""
     mesh = meshio.read(path)
-    return cartesian(tip_of(facets_of(mesh, "tip"), mesh.points).camber_line())
+    return cartesian(tip_of(groups(mesh)["tip"], mesh.points).camber_line())
 
 
 def height(profile: Airfoil, xi: np.ndarray, side: float) -> np.ndarray:

@@ -1,29 +1,10 @@
 """A structured mesh of a blade given by parameters: bricks, or wedges, of first or second order."""
 
 import numpy as np
+from blades import on_tip
 
 from geometry.blade import Sections
-from geometry.profile import Airfoil, profile_at
 from geometry.split import KINDS
-
-TURNS = 12  # of the fixed point for the plane of a place on a cylinder; eight are to round-off
-
-
-def place(sections: Sections, xi: float, eta: float, share: float) -> np.ndarray:
-    """A place (3,), mm: along the chord, across (-1 to 1), on the cylinder at a share of span."""
-    radius = sections.hub_radius + share * sections.span
-    x = radius
-    for _ in range(TURNS):
-        at = _in_section(profile_at(sections, x), xi, eta)
-        x = np.sqrt(radius**2 - at[1] ** 2)
-    return 1e3 * np.array([x, *at[1:]])
-
-
-def _in_section(profile: Airfoil, xi: float, eta: float) -> np.ndarray:
-    bow = 4 * xi * (1 - xi)
-    half = profile.thickness / 2 * (profile.edge + (1 - profile.edge) * bow)
-    return profile.place([xi], profile.camber * bow + eta * half)[0]
-
 
 ENDS = {"root": 0, "tip": 1}
 
@@ -35,7 +16,9 @@ class Bricks:
         self.shape = 2 * along + 1, 2 * across + 1, 2 * up + 1
         grids = np.meshgrid(*(np.linspace(0, 1, n) for n in self.shape), indexing="ij")
         at = np.stack(grids, axis=-1).reshape(-1, 3)
-        self.points = np.array([place(sections, xi, 2 * s - 1, share) for xi, s, share in at])
+        hub, span = sections.hub_radius, sections.span
+        places = [on_tip(sections, xi, 2 * s - 1, hub + share * span) for xi, s, share in at]
+        self.points = 1e3 * np.array(places)
         self.first = np.stack(
             np.meshgrid(*(np.arange(0, n - 1, 2) for n in self.shape), indexing="ij"), axis=-1
         ).reshape(-1, 3)

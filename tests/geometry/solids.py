@@ -27,8 +27,7 @@ def placed(r: float, stagger: float, x: np.ndarray, y: np.ndarray) -> np.ndarray
     return np.column_stack([np.full_like(x, r), -x * s + y * c, x * c + y * s])
 
 
-def _spline(points: list[int]) -> int:
-    return gmsh.model.occ.addSpline(points)
+_spline = gmsh.model.occ.addSpline
 
 
 def _points(at: np.ndarray) -> list[int]:
@@ -118,14 +117,9 @@ def core(low: float, high: float, width: float) -> list[tuple[int, int]]:
     return loft([section(r) for r in np.linspace(low, high, 3)])
 
 
-def squealer() -> None:
-    """Pocket of 2 mm in the tip."""
-    gmsh.model.occ.cut(rounded(0.3, 0.15), core(148, 151, 0.45))
-
-
-def hollow() -> None:
-    """Cavity, open at the root."""
-    gmsh.model.occ.cut(rounded(0.3, 0.15), core(60, 140, 0.4))
+def pocketed(low: float, high: float, width: float) -> None:
+    """Pocket, open at the tip or at the root."""
+    gmsh.model.occ.cut(rounded(0.3, 0.15), core(low, high, width))
 
 
 def shrouded() -> None:

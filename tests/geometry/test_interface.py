@@ -76,17 +76,13 @@ def test_the_orientation_of_the_facets_does_not_matter(facets, tip):
     np.testing.assert_allclose(tip_of(mixed, points).xi(points), tip.xi(points), atol=1e-13)
 
 
-def interface(**keys):
-    return Interface.model_validate(keys)
-
-
 def test_points_by_rule_are_in_the_middles_of_equal_chord_lengths(coarse_blade, facets, tip):
     """Against the sections' closed form, on the tip cylinder.
 
     The outline is of straight pieces, and the developed tip's chord is not quite the section's:
     measured 9 um across the chord and 1.5e-4 along it.
     """
-    places = places_of(interface(nodes=8), tip)
+    places = places_of(Interface(nodes=8), tip)
     _, _, found = on_facets(facets[0], facets[1], tip, places)
     nearby = np.linspace(-5e-4, 5e-4, 41)
     for point, xi in zip(found, (np.arange(8) + 0.5) / 8, strict=True):
@@ -103,7 +99,7 @@ def test_points_listed_are_found_to_the_digits_given(coarse_blade, facets, tip):
     listed = [on_tip(s, 0.2, 0), on_tip(s, 0.4, 0.5), on_tip(s, 0.6, -0.99)]
     listed = [np.round(1e3 * place, 3).tolist() for place in listed]
     nodes, values, there = on_facets(
-        facets[0], facets[1], tip, places_of(interface(points_mm=listed), tip)
+        facets[0], facets[1], tip, places_of(Interface(points_mm=listed), tip)
     )
     np.testing.assert_allclose(1e3 * there, listed, atol=1e-3)
     np.testing.assert_allclose(values.sum(axis=1), 1, atol=1e-13)

@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 from pathlib import Path
-from typing import NamedTuple
 
 import gmsh
 import meshio
@@ -13,48 +12,40 @@ from refused import refused
 
 import geometry.mesh
 from geometry.base import RPM, WriteError
-from geometry.mesh import MeshError, MeshSummary, build_mesh
+from geometry.mesh import MeshError, build_mesh
 from geometry.profile import profile_at
 
 
-class Built(NamedTuple):
-    summary: MeshSummary
-    mesh: meshio.Mesh
-
-    def nodes_of(self, group):
-        """Points of the facets of a physical group."""
-        return nodes_of(self.mesh, group)
+@pytest.fixture(scope="module")
+def summary(coarse_mesh):
+    return coarse_mesh.summary
 
 
 @pytest.fixture(scope="module")
-def built(coarse_mesh) -> Built:
-    return Built(coarse_mesh.summary, meshio.read(coarse_mesh.mesh))
+def mesh(coarse_mesh):
+    return meshio.read(coarse_mesh.mesh)
 
 
-def tetrahedra(mesh):
-    return mesh.cells_dict["tetra10"]
-
-
-def test_every_jacobian_is_positive_at_all_ten_nodes(built):
+def test_every_jacobian_is_positive_at_all_ten_nodes(summary, mesh):
     corners = np.eye(4)
     nodes = np.vstack([corners, [(corners[a] + corners[b]) / 2 for a, b in EDGES]])
-    assert jacobians(built.mesh.points, tetrahedra(built.mesh), nodes).min() > 0
-    assert built.summary.smallest_jacobian > 0
+    assert jacobians(mesh.points, mesh.cells_dict["tetra10"], nodes).min() > 0
+    assert summary.smallest_jacobian > 0
 
 
-def test_summary_counts_and_measures_what_is_in_the_file(built):
-    assert built.summary.nodes == len(built.mesh.points)
-    assert built.summary.cells == len(tetrahedra(built.mesh))
-    exact = volume(built.mesh.points, tetrahedra(built.mesh))
-    assert built.summary.volume == pytest.approx(exact, rel=1e-12)  # round-off of 800 cells
+def test_summary_counts_and_measures_what_is_in_the_file(summary, mesh):
+    assert summary.nodes == len(mesh.points)
+    assert summary.cells == len(mesh.cells_dict["tetra10"])
+    exact = volume(mesh.points, mesh.cells_dict["tetra10"])
+    assert summary.volume == pytest.approx(exact, rel=1e-12)  # round-off of 800 cells
 
 
-def test_volume_is_that_of_the_cad(built):
+def test_volume_is_that_of_the_cad(summary):
     # curved ten-node cells: measured -1.3e-7; straight cells on the same corners miss 0.9 %
-    assert built.summary.volume == pytest.approx(built.summary.cad_volume, rel=1e-6)
+    assert summary.volume == pytest.approx(summary.cad_volume, rel=1e-6)
 
 
-def test_volume_is_the_integral_of_the_closed_form_area(built, coarse_blade):
+def test_volume_is_the_integral_of_the_closed_form_area(summary, coarse_blade):
     """The planes' integral is 1.6e-4 too large; with the cylinders' cut it is right to 1e-6.
 
     Hub and tip are cylinders, so a column at y ends y^2/2r short of the plane x = r.
@@ -63,9 +54,9 @@ def test_volume_is_the_integral_of_the_closed_form_area(built, coarse_blade):
     hub, middle, tip = (profile_at(blade, blade.hub_radius + f * blade.span) for f in (0, 0.5, 1))
     planes = blade.span * (hub.area + 4 * middle.area + tip.area) / 6  # area is quadratic in x
     cut = moment(hub) / (2 * blade.hub_radius) - moment(tip) / (2 * blade.tip_radius)
-    assert built.summary.volume / planes - 1 == pytest.approx(-1.6e-4, abs=1e-5)
+    assert summary.volume / planes - 1 == pytest.approx(-1.6e-4, abs=1e-5)
     # left: y^4/8r^3, slope of the sides within the cut, nine lofted planes; measured 1.6e-7
-    assert built.summary.volume == pytest.approx(planes + cut, rel=1e-6)
+    assert summary.volume == pytest.approx(planes + cut, rel=1e-6)
 
 
 def moment(profile):
@@ -79,26 +70,22 @@ def moment(profile):
     return (np.outer(weights, weights).ravel() * profile.chord * thickness) @ y**2
 
 
-def test_groups_are_blade_root_and_tip_and_none_is_a_point(built):
+def test_groups_are_blade_root_and_tip_and_none_is_a_point(mesh):
     """A group of dimension 0 makes DOLFINx's reader abort."""
-    groups = {name: int(dimension) for name, (_, dimension) in built.mesh.field_data.items()}
+    groups = {name: int(dimension) for name, (_, dimension) in mesh.field_data.items()}
     assert groups == {"blade": 3, "root": 2, "tip": 2}
-    assert {block.type for block in built.mesh.cells} == {"tetra10", "triangle6"}
+    assert {block.type for block in mesh.cells} == {"tetra10", "triangle6"}
 
 
 @pytest.mark.parametrize(("group", "radius"), [("root", 0.4224), ("tip", 0.5624)])
-def test_root_and_tip_lie_on_their_cylinders(built, group, radius):
-    nodes = built.nodes_of(group)
+def test_root_and_tip_lie_on_their_cylinders_with_every_node_there(mesh, group, radius):
+    """No facet of root or tip is left unclamped or uncounted."""
+    nodes = nodes_of(mesh, group)
     assert len(nodes) > 30
     # OpenCASCADE's own tolerance is 1e-7; gmsh projects nodes to round-off of it
     np.testing.assert_allclose(np.hypot(nodes[:, 0], nodes[:, 1]), radius, atol=1e-8)
-
-
-def test_every_node_on_a_cylinder_is_in_its_group(built):
-    """No facet of root or tip is left unclamped or uncounted."""
-    radius = np.hypot(built.mesh.points[:, 0], built.mesh.points[:, 1])
-    assert (abs(radius - 0.4224) < 1e-8).sum() == len(built.nodes_of("root"))
-    assert (abs(radius - 0.5624) < 1e-8).sum() == len(built.nodes_of("tip"))
+    everywhere = np.hypot(mesh.points[:, 0], mesh.points[:, 1])
+    assert (abs(everywhere - radius) < 1e-8).sum() == len(nodes)
 
 
 REFUSED = [
@@ -163,19 +150,19 @@ def test_speed_in_rpm_is_refused_and_the_fastest_tips_are_not(coarse_blade, tmp_
     ],
 )
 def test_mesh_that_fails_a_check_is_not_written(
-    built, coarse_blade, tmp_path, monkeypatch, fault, sentence
+    summary, coarse_blade, tmp_path, monkeypatch, fault, sentence
 ):
-    bad = replace(built.summary, **fault)
+    bad = replace(summary, **fault)
     monkeypatch.setattr(geometry.mesh, "_summary", lambda *_: bad)
     refused(MeshError, build_mesh, coarse_blade, tmp_path / "blade.msh", match=sentence)
     assert not list(tmp_path.iterdir())
 
 
-def test_same_blade_gives_the_same_mesh(built, coarse_blade, tmp_path):
+def test_same_blade_gives_the_same_mesh(mesh, coarse_blade, tmp_path):
     build_mesh(coarse_blade, tmp_path / "blade.msh")
     again = meshio.read(tmp_path / "blade.msh")
-    np.testing.assert_array_equal(again.points, built.mesh.points)
-    np.testing.assert_array_equal(tetrahedra(again), tetrahedra(built.mesh))
+    np.testing.assert_array_equal(again.points, mesh.points)
+    np.testing.assert_array_equal(again.cells_dict["tetra10"], mesh.cells_dict["tetra10"])
 
 
 @pytest.mark.parametrize("share", [0.3, 0.9])

@@ -30,7 +30,8 @@ def side(profile, xi, sign):
     return on_cylinder(profile.place(xi, height(profile, xi, sign)))
 
 
-def outline_of(profile):
+@pytest.fixture(scope="module")
+def outline(profile):
     """Blunt: each edge is the straight line between the ends of both sides."""
     return np.vstack([side(profile, FRACTIONS, +1), side(profile, FRACTIONS[::-1], -1)])
 
@@ -63,8 +64,9 @@ def test_the_camber_line_is_that_of_the_closed_form_including_both_ends(
     np.testing.assert_allclose(camber_line(outline), expected, atol=error)
 
 
-def test_the_chord_fraction_is_zero_and_one_at_the_extremes_and_the_sections_between(profile):
-    outline = outline_of(profile)
+def test_the_chord_fraction_is_zero_and_one_at_the_extremes_and_the_sections_between(
+    profile, outline
+):
     tip = DevelopedTip.of(outline)
     xi = tip.xi(outline)
     assert (xi.min(), xi.max()) == pytest.approx((0, 1), abs=4 * np.finfo(float).eps)
@@ -75,9 +77,9 @@ def test_the_chord_fraction_is_zero_and_one_at_the_extremes_and_the_sections_bet
     np.testing.assert_allclose(tip.xi(far), [-0.1, 1.2], atol=1e-8)
 
 
-def test_developed_tip_keeps_lengths_along_the_chord_and_ahead_of_it(profile):
+def test_developed_tip_keeps_lengths_along_the_chord_and_ahead_of_it(profile, outline):
     """Heights are over the chord: its ends are at one height, the hollow side's ahead."""
-    tip = DevelopedTip.of(outline_of(profile))
+    tip = DevelopedTip.of(outline)
     along, ahead = tip.developed(on_cylinder(profile.place([0, 1, 0.5], [0, 0, -1e-3]))).T
     assert along[1] - along[0] == pytest.approx(profile.chord, rel=1e-8)
     assert ahead - ahead[0] == pytest.approx([0, 0, 1e-3], abs=1e-9)
@@ -87,14 +89,13 @@ def pressure_side(outline, xi=MIDDLES):
     return cartesian(DevelopedTip.of(outline).pressure_side(xi))
 
 
-def test_pressure_side_is_the_side_ahead(profile):
-    found = pressure_side(outline_of(profile))
+def test_pressure_side_is_the_side_ahead(profile, outline):
+    found = pressure_side(outline)
     np.testing.assert_allclose(found, side(profile, MIDDLES, -1), atol=POLYLINE)
     assert np.all(found[:, 1] > side(profile, MIDDLES, 0)[:, 1])
 
 
-def test_order_and_start_of_the_outline_do_not_matter(profile):
-    outline = outline_of(profile)
+def test_order_and_start_of_the_outline_do_not_matter(outline):
     expected = camber_line(outline)
     for other in (outline[::-1], np.roll(outline, 777, axis=0)):
         np.testing.assert_allclose(camber_line(other), expected, atol=1e-13)
@@ -104,11 +105,10 @@ def test_order_and_start_of_the_outline_do_not_matter(profile):
 
 
 @pytest.mark.parametrize("angle", [0.3, 3.1, -2.0])
-def test_points_turn_with_the_tip(profile, angle):
+def test_points_turn_with_the_tip(outline, angle):
     """Also across theta = pi, where the angle jumps."""
     c, s = np.cos(angle), np.sin(angle)
     turn = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
-    outline = outline_of(profile)
     for points in (camber_line, pressure_side):
         found = points(outline @ turn.T)
         np.testing.assert_allclose(found, points(outline) @ turn.T, atol=1e-13)
@@ -116,26 +116,26 @@ def test_points_turn_with_the_tip(profile, angle):
     np.testing.assert_allclose(xi, DevelopedTip.of(outline).xi(outline), atol=1e-11)
 
 
-def test_a_mirror_swaps_the_sides(profile):
+def test_a_mirror_swaps_the_sides(profile, outline):
     """The side behind is then ahead; the camber line is the same."""
     mirror = np.diag([1, -1, 1])
-    mirrored = outline_of(profile) @ mirror
+    mirrored = outline @ mirror
     expected = side(profile, PLACES, 0) @ mirror
     np.testing.assert_allclose(camber_line(mirrored), expected, atol=POLYLINE)
     expected = side(profile, MIDDLES, +1) @ mirror
     np.testing.assert_allclose(pressure_side(mirrored), expected, atol=POLYLINE)
 
 
-def test_camber_height_is_the_mean_over_the_stations(profile):
+def test_camber_height_is_the_mean_over_the_stations(outline):
     """Of the parabola over the chord between the first and the last; measured 1e-7 off."""
     xi = (np.arange(20) + 0.5) / 20
     w = 4 * xi * (1 - xi)
-    height = DevelopedTip.of(outline_of(profile)).camber_height()
+    height = DevelopedTip.of(outline).camber_height()
     assert height == pytest.approx(0.03 * (w - w[0]).mean() / 0.95, rel=1e-6)
     half_turn, mirror = np.diag([1, -1, -1]), np.diag([1, 1, -1])
-    turned = DevelopedTip.of(outline_of(profile) @ half_turn).camber_height()
+    turned = DevelopedTip.of(outline @ half_turn).camber_height()
     assert turned == pytest.approx(-height, rel=1e-10)
-    assert DevelopedTip.of(outline_of(profile) @ mirror).camber_height() == pytest.approx(height)
+    assert DevelopedTip.of(outline @ mirror).camber_height() == pytest.approx(height)
 
 
 def test_round_edges_on_a_straight_camber_line():
@@ -155,8 +155,7 @@ def test_round_edges_on_a_straight_camber_line():
     )  # has no hollow side
 
 
-def test_the_radius_is_interpolated_on_a_conical_tip(profile):
-    outline = outline_of(profile)
+def test_the_radius_is_interpolated_on_a_conical_tip(outline):
     cone = outline * (1 + outline[:, 2:]) ** [1, 1, 0]
     tip = DevelopedTip.of(cone)
     for r, _, z in (*tip.camber_line(), *tip.pressure_side(MIDDLES)):

@@ -14,8 +14,7 @@ from rom.reduce import fixed_components, natural_components, reduce
 
 @pytest.fixture(scope="module")
 def at_three_speeds(paper_matrices):
-    fom = paper_matrices
-    return [fixed_components(K, fom.M, fom.S, 4) for K in fom.K]
+    return [fixed_components(K, paper_matrices.M, paper_matrices.S, 4) for K in paper_matrices.K]
 
 
 @pytest.fixture(scope="module")

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import numpy as np
-from blades import facets_of
+from exports import groups
 from meshio import read
 from numpy.typing import NDArray
 from scipy.spatial import KDTree
@@ -18,7 +18,7 @@ type Facets = tuple[NDArray[np.float64], NDArray[np.int64]]  # points of a mesh;
 
 def tip_facets(mesh: Path) -> Facets:
     """Points of a mesh, and the six nodes of each facet of its tip."""
-    return read(mesh).points, facets_of(read(mesh), "tip")
+    return read(mesh).points, groups(read(mesh))["tip"]
 
 
 def closing(

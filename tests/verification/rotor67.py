@@ -6,9 +6,10 @@ from tempfile import TemporaryDirectory
 
 import calculix
 import numpy as np
-from blades import facets_of, given
+from blades import given
 from by_calculix import beside, cells_of, kept, theirs
 from cases import Case, Row
+from exports import groups
 from meshio import read
 from numpy.typing import NDArray
 from scipy.spatial import KDTree
@@ -43,7 +44,7 @@ def rows() -> Iterator[Row]:
     speeds = 0.0, blade.geometry_at_rpm / RPM
     with TemporaryDirectory() as folder:
         mesh = mesh_at_rest(blade, folder)
-        cells, tip = cells_of(mesh), np.unique(facets_of(read(mesh), "tip"))
+        cells, tip = cells_of(mesh), np.unique(groups(read(mesh))["tip"])
         matrices = assemble(blade, "rotor67", mesh, speeds)
     omega = [ShiftInvert(K, matrices.M).modes(MODES).omega for K in matrices.K]
     of_calculix = theirs("rotor67", cells, blade.material, speeds)
