@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from closing import closing, sides, tip_facets
 from peer import piecewise_exact
+from refused import refused
 from scenes import RUBBING, of_steps, scene
 from systems import Parameters, strips as strips_of
 from test_accuracy import TO_CHOOSE
@@ -248,9 +249,7 @@ def test_an_independent_program_agrees_on_rows_from_the_nodes(
 
 def test_a_rigid_casing_asks_for_one_row(edges_rom):
     for liner in ({"liner__law": {"kind": "rigid"}}, {"liner__worn_through": "casing"}):
-        case = rub(**liner)
-        with pytest.raises(UserError, match="across: 1"):
-            check_scene(case, edges_rom)
+        refused(UserError, check_scene, rub(**liner), edges_rom, match="across: 1")
 
 
 def test_the_footprint_is_the_arc_that_the_tip_covers(solid, edges_rom, coarse_rom):
@@ -265,8 +264,8 @@ def test_the_footprint_is_the_arc_that_the_tip_covers(solid, edges_rom, coarse_r
     assert (strip_places(coarse_rom, given.liner, given.casing).footprint == 4e-3).all()
     assert "not used" in doubts(given, edges_rom)["liner.footprint_mm"]
     without = replace(coarse_rom, sides=np.empty((2, 0)))
-    with pytest.raises(RomError, match="footprint_mm"):
-        strip_places(without, scene(liner__footprint_mm=None).liner, given.casing)
+    liner = scene(liner__footprint_mm=None).liner
+    refused(RomError, strip_places, without, liner, given.casing, match="footprint_mm")
 
 
 def test_gaps_at_rest_differ_between_the_edges_by_their_growth(edges_rom):

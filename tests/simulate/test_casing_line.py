@@ -112,16 +112,17 @@ def test_settings_that_do_not_hold_together(changes, key):
 
 def test_a_line_or_a_shift_that_does_not_fit_the_tip_is_refused(cone):
     """Beyond its ends, inside the tip, on a model without growth; a gap that the shift closes."""
-    few = refused(SceneError, check_scene, of_line(beside(cone, GAP, beyond=-1.0)), cone)
-    assert few.key == "casing.line" and "should cover the tip" in few.text
-    inside = refused(SceneError, check_scene, of_line(beside(cone, -GAP)), cone)
-    assert inside.key == "casing.line" and "0.1 mm inside the tip" in inside.text
+    for case, key, told in (
+        (of_line(beside(cone, GAP, beyond=-1.0)), "casing.line", "should cover the tip"),
+        (of_line(beside(cone, -GAP)), "casing.line", "0.1 mm inside the tip"),
+        (scene(casing__axial_shift_um=1000), "clearance", "the shift of the rotor closes it"),
+    ):
+        error = refused(SceneError, check_scene, case, cone)
+        assert error.key == key and told in error.text
     unknown = replace(cone, growth=np.empty((0, 0)))
     assert refused(SceneError, check_scene, of_line(beside(cone, GAP)), unknown).key == (
         "casing.line"
     )
-    closed = refused(SceneError, check_scene, scene(casing__axial_shift_um=1000), cone)
-    assert closed.key == "clearance" and "the shift of the rotor closes it" in closed.text
     table = {"speed_rad_s": [0, 1], "shift_um": [0, 0]}
     short = refused(SceneError, check_scene, scene(casing__axial_shift_um=table), cone)
     assert short.key == "casing.axial_shift_um" and short.allowed == (0, 1)

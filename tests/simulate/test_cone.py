@@ -29,14 +29,6 @@ def closing(rom, xi, slope=SLOPE):
     return P
 
 
-def tapering(fom):
-    """The matrices of the coarse blade, as if its tip were on a cone of slope 0.1 to -0.3."""
-    camber = fom.camber.copy()
-    z = camber[:, 2] - camber[0, 2]
-    camber[:, 0] += 0.1 * z - 0.2 * z**2 / z[-1]
-    return replace(fom, camber=camber)
-
-
 def test_the_blade_moves_by_what_closes_the_gap_and_takes_the_force_along_the_normal(coarse_rom):
     """Axial over radial force is -s; with s = 0 the rows are the radial ones."""
     setup = set_up(scene(casing__slope=SLOPE), coarse_rom)
@@ -108,7 +100,11 @@ def test_energies_close_and_friction_is_mu_times_the_normal_force(coarse_rom):
 
 
 def test_a_tip_that_tapers_gets_axial_dofs_whatever_is_asked_for(coarse_blade, coarse_matrices):
-    fom = tapering(coarse_matrices)
+    """The matrices of the coarse blade, as if its tip were on a cone of slope 0.1 to -0.3."""
+    camber = coarse_matrices.camber.copy()
+    z = camber[:, 2] - camber[0, 2]
+    camber[:, 0] += 0.1 * z - 0.2 * z**2 / z[-1]
+    fom = replace(coarse_matrices, camber=camber)
     rom = reduce(fom, coarse_blade.basis, "r")[0]
     assert rom.directions == ("radial", "axial")
     np.testing.assert_array_equal(rom.taper, fom.slope)

@@ -21,11 +21,6 @@ from simulate.marching.run import _start
 DEPTH = 1e-3  # m, of the casing into a blade at rest
 
 
-def pressed(k, depth=DEPTH):
-    """One strip on an elastic rod, pressed by ``depth`` where the blade is at rest."""
-    return elastic_rod(k, gap=-depth)
-
-
 def rubbing(mu, **changes):
     """A scene with friction."""
     given = {"casing__ramp_rounds": 1, "contact": {"friction": mu}, "integrator": of_steps(1024)}
@@ -56,8 +51,8 @@ def test_one_mode_grows_at_the_rate_of_the_closed_form(mu, zeta):
     grown, errors = c * np.exp(s * time), []
     for steps in (200, 400, 800):
         run = march_exact(
-            pressed(K, -DEPTH), [OMEGA], [[PHI_R]], zeta, time / steps, steps, [q + c], [s * c],
-            w_end=0.0, sliding=(mu, PHI_T),
+            elastic_rod(K, gap=DEPTH), [OMEGA], [[PHI_R]], zeta, time / steps, steps,
+            [q + c], [s * c], w_end=0.0, sliding=(mu, PHI_T),
         )  # fmt: skip
         errors.append(abs(run.u[-1, 0] / PHI_R - q - grown) / grown)
         assert run.contacts == steps
@@ -77,8 +72,8 @@ def test_one_mode_below_mu_crit_stays_bounded_whatever_the_step(over, steps_per_
     mu, phi_t = abs(over) * critical, np.sign(over) * PHI_T
     rest = -bracket(mu, phi_t)[1]
     run = march_exact(
-        pressed(K), [OMEGA], [[PHI_R]], 0.0, 1 / steps_per_time, 3000, [rest + 1e-6], [0.0],
-        sliding=(mu, phi_t),
+        elastic_rod(K, gap=-DEPTH), [OMEGA], [[PHI_R]], 0.0, 1 / steps_per_time, 3000,
+        [rest + 1e-6], [0.0], sliding=(mu, phi_t),
     )  # fmt: skip
     assert abs(run.u[:, 0] / PHI_R - rest).max() < 1.05e-6  # round-off, where hardly stiff
 

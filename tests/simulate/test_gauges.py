@@ -146,9 +146,7 @@ def test_a_model_without_these_gauges_is_refused(rom, held):
     ],
 )
 def test_gauges_that_cannot_be_are_refused(gauges, key):
-    with pytest.raises(SettingsError) as caught:
-        case(record={"gauges": gauges})
-    assert caught.value.key == key
+    assert refused(SettingsError, case, record={"gauges": gauges}).key == key
 
 
 def test_a_run_until_it_is_steady_reads_its_last_rounds(rom):

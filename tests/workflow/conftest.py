@@ -11,6 +11,8 @@ import yaml
 from platformdirs import user_cache_path
 from projects import ROOT, Project, bring_up_to_date, make_project
 
+from rom.reconstruct import Basis
+
 type Change = Callable[[Project], None]  # of the files of a project
 
 
@@ -76,6 +78,13 @@ def swept(kept) -> Project:
 def project(kept) -> Project:
     """The whole workflow run once, end to end; each process of the tests has a copy."""
     return kept("whole")
+
+
+@pytest.fixture(scope="session")
+def coarse_basis(coarse_matrices, coarse_reduced) -> Basis:
+    """Displacements of the coarse blade by those of its reduced model."""
+    rom, T = coarse_reduced
+    return Basis.of(coarse_matrices, T, rom.provenance)
 
 
 @pytest.fixture(scope="session")

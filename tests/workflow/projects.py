@@ -139,7 +139,8 @@ def make_project(folder: Path) -> Project:
     project.edit("workflow/scenes/paper.yaml", _shorten)
     for coating in ("e1", "e10"):
         project.edit(f"workflow/scenes/paper-{coating}.yaml", _close_in_no_further)
-    project.edit("workflow/scenes/peak-e1.yaml", _at_one_speed)
+    at_one_speed = {"over_f1": [0.34]}
+    project.edit("workflow/scenes/peak-e1.yaml", lambda scene: scene.update(speeds=at_one_speed))
     project.edit("workflow/scenes/one-percent.yaml", _at_speeds_of_base)
     scenes = ["paper-e1", "paper-e10", "peak-e1"]  # of two speeds or one, with states
     project.edit("workflow/config.yaml", lambda config: config.update(blocks=2, scenes=scenes))
@@ -160,18 +161,12 @@ def _close_in_no_further(scene):
 
 
 def _shorten(scene):
-    scene["speeds"] = {"over_f1": SPEEDS}
+    scene.update(speeds={"over_f1": SPEEDS}, rounds=4)
     _close_in_no_further(scene)
-    scene["rounds"] = 4
     scene["casing"]["ramp_rounds"] = 1
-    scene["record"]["spectrum_rounds"] = 2
-    scene["record"]["samples_per_round"] = 256
+    scene["record"].update(spectrum_rounds=2, samples_per_round=256)
     scene["liner"]["rods_per_round"] = 512
 
 
 def _at_speeds_of_base(scene):
     del scene["speeds"], scene["peaks"]
-
-
-def _at_one_speed(scene):
-    scene["speeds"] = {"over_f1": [0.34]}

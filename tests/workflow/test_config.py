@@ -3,6 +3,7 @@
 import subprocess
 from errno import ENOSPC
 from pathlib import Path
+from unittest.mock import Mock
 
 import pytest
 from projects import make_project
@@ -79,10 +80,7 @@ def test_a_folder_without_room_or_rights_is_named(tmp_path, monkeypatch):
     assert not not_writable(tmp_path)
     none = tmp_path / "none"
     assert not_writable(none).startswith(f"{none}: cannot be written (No such file")
-
-    def full(**_):
-        raise OSError(ENOSPC, "No space left on device")
-
+    full = Mock(side_effect=OSError(ENOSPC, "No space left on device"))
     monkeypatch.setattr(at_work, "TemporaryFile", full)
     assert "(No space left on device): make room there" in not_writable(tmp_path)
 

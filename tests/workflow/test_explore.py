@@ -8,17 +8,13 @@ import shutil
 
 import numpy as np
 import pytest
-from projects import ROOT
-from scenes import RUBBING
 from scipy.spatial import cKDTree
+from test_stress import swept
 
 from fem.fatigue import von_mises
 from fem.fields import fields
-from rom.reconstruct import Basis
-from simulate.scene import Scene
 from simulate.signals import leading_gap
 from simulate.sweeps.crossings import critical
-from simulate.sweeps.over_speeds import as_sweep, at_speeds
 from workflow.explore import page as pack
 from workflow.explore.blade import moving
 from workflow.explore.page import html
@@ -36,31 +32,15 @@ SOUGHT = {"lines": {}, "modes": 4, "orders": ORDERS, "excited": {}}
 
 
 @pytest.fixture(scope="module")
-def basis(coarse_matrices, coarse_reduced):
-    rom, T = coarse_reduced
-    return Basis.of(coarse_matrices, T, rom.provenance)
-
-
-@pytest.fixture(scope="module")
 def response(coarse_rom):
     """A few speeds of the paper's E = 10, with all that the page can show."""
-    record = {"spectrum_rounds": 4, "samples_per_round": 256, "motion": 2}
-    scene = Scene.load(ROOT / "workflow/scenes/paper-e10.yaml").but(
-        blade="coarse",
-        speeds={"over_f1": SPEEDS},
-        rounds=8,
-        peaks=None,
-        record=record | {"states_rounds": 1, "history": {"chord": [0.0625]}},
-        liner__strips=8,
-        **RUBBING,
-    )
-    speeds = 2 * np.pi * coarse_rom.f1 * np.array(SPEEDS)
-    return Response(as_sweep(at_speeds(scene, coarse_rom, speeds)), coarse_rom)
+    more = {"states_rounds": 1, "history": {"chord": [0.0625]}}
+    return Response(swept(coarse_rom, SPEEDS, 8, twin=True, **more), coarse_rom)
 
 
 @pytest.fixture(scope="module")
-def moved(coarse_blade, coarse_mesh, basis, response):
-    return moving(coarse_blade, coarse_mesh.mesh, basis, response.sweep, response.rom)
+def moved(coarse_blade, coarse_mesh, coarse_basis, response):
+    return moving(coarse_blade, coarse_mesh.mesh, coarse_basis, response.sweep, response.rom)
 
 
 def facts_of(response):
@@ -185,7 +165,7 @@ def test_numbers_that_are_not_known_are_told_as_such():
 
 
 def test_motion_and_stress_are_those_of_the_whole_blade(
-    coarse_blade, coarse_mesh, basis, response, moved
+    coarse_blade, coarse_mesh, coarse_basis, response, moved
 ):
     """Against the fields of one recorded state: displacement to 1 %, von Mises stress to 2 %."""
     told, of = moved
@@ -194,8 +174,8 @@ def test_motion_and_stress_are_those_of_the_whole_blade(
     run = response.sweep.isel(speed_over_f1=speed)
     time = int(np.flatnonzero(~np.isnan(run["motion"][:, 0]))[-5])
     state = run["states"].sel(time=run["motion_time"][time]).values
-    static, u = basis.static(float(run["speed"])), basis.reconstruct(state)
-    exact = fields(coarse_blade, coarse_mesh.mesh, basis.coordinates, static, u)
+    static, u = coarse_basis.static(float(run["speed"])), coarse_basis.reconstruct(state)
+    exact = fields(coarse_blade, coarse_mesh.mesh, coarse_basis.coordinates, static, u)
     near = cKDTree(exact.points).query(of["points"])[1]
     a = of["a"][speed, time]
     shown = np.tensordot(a, of["shapes"], 1)
@@ -215,10 +195,9 @@ def browser():
     chromium = shutil.which("chromium") or shutil.which("chromium-browser")
     if not chromium:
         pytest.skip("no Chromium on PATH: the page was not opened in a browser")
-    with driver.sync_playwright() as playwright:
-        launched = playwright.chromium.launch(executable_path=chromium, args=FLAGS)
+    given = {"executable_path": chromium, "args": FLAGS}
+    with driver.sync_playwright() as playwright, playwright.chromium.launch(**given) as launched:
         yield launched
-        launched.close()
 
 
 FLAGS = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
@@ -232,7 +211,6 @@ PLOTS = {
     "history": 2,
     "signal": 1,
 }
-RECORDED = PLOTS.keys() - {"campbell"}
 WIDE, NARROW = {"width": 1200, "height": 900}, {"width": 400, "height": 800}
 
 
@@ -275,9 +253,16 @@ class Opened:
         return self.page.query_selector("#blade").screenshot()
 
 
-def test_a_browser_draws_everything_and_answers(page, browser):
-    """No message, no request; every plot drawn; clicks, slider and keys choose the speed."""
+@pytest.fixture
+def opened(page, browser):
+    """The page in the browser; until the end of a test no message, no request."""
     opened = Opened(browser, page)
+    yield opened
+    assert opened.quiet()
+
+
+def test_a_browser_draws_everything_and_answers(opened):
+    """Every plot drawn; clicks, slider and keys choose the speed."""
     for name, traces in PLOTS.items():
         assert opened.data(name, "data.length") == traces, name
         assert opened.page.query_selector(f"#{name} .main-svg"), name
@@ -298,11 +283,9 @@ def test_a_browser_draws_everything_and_answers(page, browser):
     assert opened.data("orders", f"data[{ORDERS.index(13)}].visible") is False
     opened.page.get_by_label("13", exact=True).press("Space")
     assert opened.data("orders", f"data[{ORDERS.index(13)}].visible") is True
-    assert opened.quiet()
 
 
-def test_the_blade_moves_turns_and_stops(page, browser):
-    opened = Opened(browser, page)
+def test_the_blade_moves_turns_and_stops(opened):
     opened.page.select_option("#colour", "stress")
     assert "MPa" in opened.page.text_content("#range")
     before = opened.frames()
@@ -327,12 +310,10 @@ def test_the_blade_moves_turns_and_stops(page, browser):
     opened.page.focus("#blade")
     opened.page.keyboard.press("+")
     assert opened.picture() != still
-    assert opened.quiet()
 
 
-def test_units_are_switched_and_numbers_saved(page, response, browser, tmp_path):
+def test_units_are_switched_and_numbers_saved(opened, response, tmp_path):
     """In rpm and µm: the peak's speed and amplitude, operating lines, and the files."""
-    opened = Opened(browser, page)
     assert opened.data("orders", "layout.xaxis.title.text") == "Ω / f₁(0)"
     opened.page.select_option("#units", "engine")
     f1, gap = response.rom.f1, 1e6 * leading_gap(response.sweep)
@@ -360,11 +341,9 @@ def test_units_are_switched_and_numbers_saved(page, response, browser, tmp_path)
         with opened.page.expect_download() as saved:
             opened.page.click(picture)
         assert saved.value.suggested_filename.endswith(".png")
-    assert opened.quiet()
 
 
-def test_no_number_has_an_exponent_and_what_is_for_developers_is_folded(page, browser):
-    opened = Opened(browser, page)
+def test_no_number_has_an_exponent_and_what_is_for_developers_is_folded(opened):
     text = opened.page.inner_text("body")
     assert not re.search(r"\de[+-]?\d|10\^|10<sup>", text)
     assert not opened.page.is_visible("#numbers")
@@ -372,8 +351,7 @@ def test_no_number_has_an_exponent_and_what_is_for_developers_is_folded(page, br
     assert ticks[0] == 0 and len(ticks) >= 4
 
 
-def test_edges_of_the_blade_are_named_and_the_view_is_reset(page, browser):
-    opened = Opened(browser, page)
+def test_edges_of_the_blade_are_named_and_the_view_is_reset(opened):
     opened.page.click("#play")
     at = {name: opened.page.query_selector(f"#{name}").bounding_box() for name in ("LE", "TE")}
     box = opened.page.query_selector("#blade").bounding_box()
@@ -387,7 +365,6 @@ def test_edges_of_the_blade_are_named_and_the_view_is_reset(page, browser):
     assert opened.page.query_selector("#LE").bounding_box() != at["LE"]
     opened.page.click("#reset")
     assert opened.picture() == still
-    assert opened.quiet()
 
 
 def test_a_narrow_page_needs_no_scrolling_sideways(page, browser):
@@ -419,7 +396,7 @@ def test_a_run_without_a_result_is_marked(response, moved, browser, tmp_path):
 def test_what_was_not_recorded_is_said(response, browser, tmp_path):
     kept = response.sweep.drop_vars(["spectrum", "wear", "motion", "envelope", "largest"])
     opened = Opened(browser, written(tmp_path, Response(kept, response.rom)))
-    for name in RECORDED:
+    for name in PLOTS.keys() - {"campbell"}:
         assert "not recorded" in opened.page.text_content(f"#{name}"), name
     assert "set record: {motion: 3}" in opened.page.text_content("#still")
     opened.page.keyboard.press("ArrowRight")

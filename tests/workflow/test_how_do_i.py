@@ -14,7 +14,6 @@ FILES = dict(re.findall(r"```yaml\n# (\S+)\n(.*?)```", PAGE, re.DOTALL))
 PYTHON = re.findall(r"```python\n(.*?)```", (ROOT / "README.md").read_text() + PAGE, re.DOTALL)
 NAMES = [path.split("/")[-1].removesuffix(".yaml") for path in FILES if "/scenes/" in path]
 OF_REFERENCE = ("my-run-up", "my-liner", "my-orbit", "my-casing", "my-gauges")
-SCENES = f"scenes=[{', '.join(NAMES)}]"
 
 
 @pytest.fixture(scope="module")
@@ -37,7 +36,7 @@ def test_the_page_has_over_a_dozen_recipes():
 
 
 def test_files_of_the_page_are_planned(with_files):
-    planned = with_files.planned("--config", SCENES)
+    planned = with_files.planned("--config", f"scenes=[{', '.join(NAMES)}]")
     assert (planned["sweep"], planned["design"]) == (len(NAMES) - 1, 1)
     assert with_files.planned("results/my-engine/rom-r.nc")["reduce"] == 1
 

@@ -199,14 +199,19 @@ def test_a_geometry_that_is_edited_while_its_job_runs_is_refused(tmp_path):
     said = project.run("results/mine/blade.msh", expect=1)
     assert "workflow/blades/mine.csv: changed while it was read: run it again" in said
     assert "Traceback" not in said and not (tmp_path / "results/mine/blade.msh").exists()
-    planned = project.planned("results/mine/blade.msh")
-    assert planned["build_mesh"] == 1
+    assert project.planned("results/mine/blade.msh")["build_mesh"] == 1
 
 
-def test_a_file_is_hashed_anew_when_its_state_changes_and_only_then(tmp_path, monkeypatch):
-    path, other = tmp_path / "a.csv", tmp_path / "b.csv"
+@pytest.fixture
+def path(tmp_path) -> Path:
+    """A file of one digit."""
+    path = tmp_path / "a.csv"
     path.write_text("1")
-    first = file_hash(path)
+    return path
+
+
+def test_a_file_is_hashed_anew_when_its_state_changes_and_only_then(path, monkeypatch):
+    first, other = file_hash(path), path.with_name("b.csv")
     digest = contents.hashlib.file_digest
     counted = []
     monkeypatch.setattr(
@@ -220,40 +225,30 @@ def test_a_file_is_hashed_anew_when_its_state_changes_and_only_then(tmp_path, mo
     assert file_hash(other) == first
 
 
-def rewritten(path: Path) -> None:
-    """With the bytes that it had: others may have been read in between."""
-    replaced_by_older(path, path.read_text())
-
-
 @pytest.mark.parametrize(
     ("change", "said"),
     [
         (lambda path: overwritten_in_place(path, "2"), "changed while it was read"),
         (lambda path: replaced_by_older(path, "2"), "changed while it was read"),
-        (rewritten, "changed while it was read"),
+        # with the bytes that it had: others may have been read in between
+        (lambda path: replaced_by_older(path, path.read_text()), "changed while it was read"),
         (Path.unlink, "cannot be read (No such file or directory)"),
         (lambda path: os.link(path, path.with_name("kept")), None),  # by a backup
     ],
 )
-def test_a_change_during_a_job_is_refused(tmp_path, change, said):
-    path = tmp_path / "a.csv"
-    path.write_text("1")
+def test_a_change_during_a_job_is_refused(path, change, said):
     refused = pytest.raises(SettingsError, match=re.escape(f"{path}: {said}"))
     with nullcontext() if said is None else refused, unchanged(hashes([path])):
         change(path)
 
 
-def test_a_change_within_a_tick_of_the_clock_is_refused(tmp_path, monkeypatch):
+def test_a_change_within_a_tick_of_the_clock_is_refused(path, monkeypatch):
     monkeypatch.setattr(contents, "_state", lambda path: (0, 0, 0, 0, 0))
-    path = tmp_path / "a.csv"
-    path.write_text("1")
     with pytest.raises(SettingsError, match="while it was read"), unchanged(hashes([path])):
         path.write_text("2")
 
 
-def test_a_change_before_a_job_is_refused(tmp_path):
-    path = tmp_path / "a.csv"
-    path.write_text("1")
+def test_a_change_before_a_job_is_refused(path):
     planned = hashes([path])
     path.write_text("2")
     refused = pytest.raises(SettingsError, match="changed since this run was planned: start it")

@@ -109,7 +109,9 @@ def test_a_crossing_beyond_the_top_speed_is_told_alike_everywhere(told, rom):
     line += rf"{CROSSING * RPM:.0f}( ±[\d.]+)? rpm, "
     line += r"extrapolated crossing of EO 4 with mode 1: speed \+12.0 %, frequency \+8.0 %"
     page = summary.panel(MINE | {"peaks": []}, critical(rom, OPERATING), {})
-    texts = (summary.table(found), summary.terminal(found), "\n".join(page["notes"]), legend(rom))
+    (legend,) = diagram(rom).legends
+    figure = "\n".join(text.get_text() for text in legend.texts)
+    texts = (summary.table(found), summary.terminal(found), "\n".join(page["notes"]), figure)
     for text in texts:
         assert re.search(line, text)
         # every number of every line is the same, and only the figure does not know the errors
@@ -131,15 +133,12 @@ def test_tables_of_summary_page_and_file_and_marks_of_the_campbell_diagram_are_t
     of_file = [float(row["rpm"]) for row in of_csv(found)]
     assert of_file == pytest.approx([row["rpm"] for row in rows], rel=1e-5)
     first, every, *_ = diagram(rom).axes
-    marked = [x * RPM for axes in (first, every) for x in squares(axes)]
+    squares = [line for line in (*first.lines, *every.lines) if line.get_marker() == "s"]
+    marked = [x * RPM for line in squares for x in line.get_xdata()]
     near = {row["rpm"] for row in margins.near(rows) if row["quadratic_rpm"]}
     assert sorted(marked) == pytest.approx(sorted(near))
     texts = {text.get_text() for axes in (first, every) for text in axes.texts}
     assert {f"{rpm:.0f}" for rpm in near} <= texts
-
-
-def squares(axes):
-    return [x for line in axes.lines if line.get_marker() == "s" for x in line.get_xdata()]
 
 
 def diagram(rom):
@@ -150,11 +149,6 @@ def diagram(rom):
         speeds=speeds, full=full, reduced=full, between=np.nan, provenance=PROVENANCE, **known
     )
     return campbell.draw(rom, check, operating=OPERATING)
-
-
-def legend(rom):
-    (below,) = diagram(rom).legends
-    return "\n".join(text.get_text() for text in below.texts)
 
 
 def test_frequencies_of_the_campbell_diagram_go_on_dashed_to_a_quarter_above_the_top(rom):

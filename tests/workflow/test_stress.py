@@ -14,7 +14,6 @@ from fem.worst_node import NodeStress, cycles, worst
 from geometry.base import ProvenanceError
 from geometry.blade import Fatigue
 from rom.coarser import coarser
-from rom.reconstruct import Basis
 from simulate.errors.model_errors import ModelError
 from simulate.errors.stressed import at_node, mesh_errors, stress_of, through, with_rotation
 from simulate.scene import GROWING, Scene
@@ -34,8 +33,8 @@ def sweep(coarse_rom):
     return runs.assign(trend=("speed_over_f1", ["steady", GROWING, "steady"]))
 
 
-def swept(rom, over_f1, rounds, **more):
-    """Runs of the coarse blade over speeds; ``more``: of the record."""
+def swept(rom, over_f1, rounds, twin=False, **more):
+    """Runs of the coarse blade over speeds, of the paper's E = 10; ``more``: of the record."""
     record = {"spectrum_rounds": 4, "samples_per_round": 256, "motion": 2} | more
     scene = Scene.load(ROOT / "workflow/scenes/paper-e10.yaml").but(
         blade="coarse",
@@ -44,18 +43,22 @@ def swept(rom, over_f1, rounds, **more):
         peaks=None,
         record=record,
         liner__strips=8,
-        twin=False,
+        twin=twin,
         **RUBBING,
     )
     return as_sweep(at_speeds(scene, rom, 2 * np.pi * rom.f1 * np.array(over_f1)))
 
 
 @pytest.fixture(scope="module")
-def basis_file(coarse_matrices, coarse_reduced, tmp_path_factory):
-    rom, T = coarse_reduced
+def basis_file(coarse_basis, tmp_path_factory):
     path = tmp_path_factory.mktemp("stress") / "basis.h5"
-    Basis.of(coarse_matrices, T, rom.provenance).save(path)
+    coarse_basis.save(path)
     return path
+
+
+@pytest.fixture(scope="module")
+def solid(coarse_blade, coarse_mesh):
+    return read_solid(str(coarse_mesh.mesh), coarse_blade.material)
 
 
 @pytest.fixture(scope="module")
@@ -70,20 +73,24 @@ def write(blade, mesh, rom, basis_file, sweep):
 
 
 def test_the_worst_node_is_that_of_all_states_marched_through_the_fields(
-    written, sweep, coarse_blade, coarse_mesh, basis_file
+    written, sweep, coarse_blade, coarse_mesh, coarse_basis, solid
 ):
     """Nonlinear fields of every state of its revolution; the linear ones differ by a percent."""
     told, vtu = written
     row = told["speeds"][2]
-    run, basis = sweep.isel(speed_over_f1=2), Basis.load(basis_file)
-    static = basis.static(float(run["speed"]))
+    static = coarse_basis.static(float(sweep.isel(speed_over_f1=2)["speed"]))
     found = [
-        fields(coarse_blade, coarse_mesh.mesh, basis.coordinates, static, basis.reconstruct(u))
+        fields(
+            coarse_blade,
+            coarse_mesh.mesh,
+            coarse_basis.coordinates,
+            static,
+            coarse_basis.reconstruct(u),
+        )
         for u in job.revolutions(sweep)[2][row["revolution"]]
     ]
     total = np.array([of.total.stress[:, *TENSOR] for of in found])
     mean, alternating = cycles(total, np.eye(len(total)))
-    solid = read_solid(str(coarse_mesh.mesh), coarse_blade.material)
     settled, _ = airfoil(solid, coarse_blade.stress)
     margins = margin(mean, alternating, Fatigue(**STRENGTH))[settled]
     node = np.flatnonzero(settled)[margins.argmin()]
@@ -109,12 +116,11 @@ def test_a_growing_motion_has_the_stress_that_it_reached(written):
 
 
 def test_the_file_has_the_fields_of_the_reported_runs_and_of_the_worst(
-    written, coarse_blade, coarse_mesh
+    written, coarse_blade, solid
 ):
     """In single precision."""
     told, vtu = written
     grid = pv.read(vtu)
-    solid = read_solid(str(coarse_mesh.mesh), coarse_blade.material)
     settled, distance = airfoil(solid, coarse_blade.stress)
     assert (told["root"], told["away_m"], told["too_near"]) == ("sharp", distance, None)
     np.testing.assert_array_equal(grid["away from clamp and contact"], settled)
@@ -155,7 +161,7 @@ def test_the_search_by_bounds_finds_the_worst_of_all_nodes(fatigue, times):
 
 
 def test_ten_drawn_runs_tell_the_largest_stress_of_all_their_revolutions(
-    coarse_blade, coarse_mesh, coarse_rom, basis_file
+    coarse_blade, coarse_mesh, coarse_rom, coarse_basis, basis_file, solid
 ):
     """To 2 %, each revolution by itself; in half of the runs the last one misses a tenth.
 
@@ -164,11 +170,9 @@ def test_ten_drawn_runs_tell_the_largest_stress_of_all_their_revolutions(
     drawn = np.sort(np.random.default_rng(8).uniform(0.1, 0.39, 10)).round(3).tolist()
     runs = swept(coarse_rom, drawn, 20, states_rounds=20, samples_per_round=512, motion=3)
     told, _ = write(coarse_blade, coarse_mesh, coarse_rom, basis_file, runs)
-    solid = read_solid(str(coarse_mesh.mesh), coarse_blade.material)
     shapes = motion(runs["states"].values, coarse_rom.stiffness(0.0), job.SHAPES)
-    basis = Basis.load(basis_file)
-    sigma = stresses(solid, basis, shapes.shapes, coarse_blade.prestress)
-    stressed = job.Stressed(coarse_blade, solid, basis, shapes, sigma)
+    sigma = stresses(solid, coarse_basis, shapes.shapes, coarse_blade.prestress)
+    stressed = job.Stressed(coarse_blade, solid, coarse_basis, shapes, sigma)
     missed = []
     for row, run in zip(told["speeds"], runs["states"].values, strict=True):
         times = len(run) // 20
@@ -263,25 +267,24 @@ def test_what_is_read_near_a_sharp_clamp_is_warned(
 
 
 def test_bending_rises_further_towards_a_sharp_clamp(
-    coarse_blade, coarse_mesh, coarse_rom, basis_file
+    coarse_blade, coarse_rom, coarse_basis, solid, monkeypatch
 ):
     """One mode, at the border of what is read; a smooth field, and mode 1 has one cycle a period.
 
     Twice the motion has twice the stress, and the same error by the mesh.
     """
-    basis, solid = Basis.load(basis_file), read_solid(str(coarse_mesh.mesh), coarse_blade.material)
     _, modes = coarse_rom.modes(300.0)
     shapes = Shapes(modes[:, :1], np.linalg.pinv(modes[:, :1]).T, np.zeros(1))
-    sigma = stresses(solid, basis, shapes.shapes, coarse_blade.prestress)
+    sigma = stresses(solid, coarse_basis, shapes.shapes, coarse_blade.prestress)
     blade = coarse_blade.but(fatigue=STRENGTH)
-    stressed = job.Stressed(blade, solid, basis, shapes, sigma)
+    stressed = job.Stressed(blade, solid, coarse_basis, shapes, sigma)
     swing = 1e-5 * np.sin(2 * np.pi * 4 * np.arange(1, 129) / 128)[:, None]
     found = stressed.worst(300.0, {1: with_rotation(swing), 2: with_rotation(2 * swing)})
     one, two = (found.stress.numbers(a)["alternating"] for a in found.revolutions.values())
     assert (found.number, two) == (2, pytest.approx(2 * one))
     assert found.stress.order(found.a) == 4
     told, farther = stressed.around(found), blade.but(stress={"away_mm": 30})
-    at_border = job.Stressed(farther, solid, basis, shapes, sigma)
+    at_border = job.Stressed(farther, solid, coarse_basis, shapes, sigma)
     border = at_border.worst(300.0, found.revolutions)
     assert at_border.around(border)["rises"] == job.CLAMP and told["stands_out"] < 1.25
     assert told["between"] == pytest.approx(two)
@@ -291,12 +294,9 @@ def test_bending_rises_further_towards_a_sharp_clamp(
     assert 0 < errors["alternating"] < 0.5
     near = stressed.near_clamp
     assert not stressed.airfoil[0][near].any() and len(near) > 10
-    lifted = job.AGREE
-    try:
-        job.AGREE = 1.0
+    with monkeypatch.context() as lifted:
+        lifted.setattr(job, "AGREE", 1.0)
         nearer = stressed.nearer(found)["nearer"]
-    finally:
-        job.AGREE = lifted
     assert nearer["alternating"] == pytest.approx(
         stressed.everywhere(found, near, float)["alternating"].max(), rel=0.05
     )

@@ -97,8 +97,7 @@ def read_csv(found):
 
 def cells(found):
     """Cells of the one row of each table as they are shown."""
-    tables = summary.shown(found["scenes"][0])
-    return [cell for _, (row,) in tables for cell in row]
+    return [cell for _, (row,) in summary.shown(found["scenes"][0]) for cell in row]
 
 
 @pytest.fixture
@@ -141,8 +140,8 @@ def test_a_peak_in_units_of_engines(summed):
     assert {"4200 ±9", "0.350", "40 ±5%", "300 (no ±)", "20 (no ±) ↑", "17 (no ±)"} <= {
         *cells(found)
     }
-    spaced = summed({"spacing": 0.027 - 3.5e-4})
-    assert cells(spaced)[2] == "4200 ±324"  # no exponent
+    # no exponent
+    assert cells(summed({"spacing": 0.027 - 3.5e-4}))[2] == "4200 ±324"
     ending = summed({"at_end": True})  # on the rise: a bound
     assert cells(ending)[2] == "4200 (end: rises further)"
     assert read_csv(ending)["speed +- (rpm)"] == ""
@@ -228,8 +227,7 @@ def test_the_worst_stress_of_all_speeds_is_told_with_its_node(summed):
     assert line.format("±10%", "±20%", "12 ±40%") in summary.terminal(summed(peak, stress=STRESS))
     unknown = summed(stress=STRESS, worst=[own], model_error={"basis": None, "mesh": None})
     assert line.format("≥10%", "≥20%", "12 ≥40%") in summary.terminal(unknown)
-    still = STRESS | {"worst": None}
-    assert "Worst" not in summary.terminal(summed(stress=still))
+    assert "Worst" not in summary.terminal(summed(stress=STRESS | {"worst": None}))
 
 
 def test_what_the_worst_stress_is_worth_is_told(summed):

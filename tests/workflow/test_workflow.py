@@ -25,8 +25,7 @@ CONFIG, REFERENCE = "workflow/config.yaml", "workflow/blades/reference.yaml"
 @pytest.fixture
 def touched(project, tmp_path) -> Project:
     """The finished project with its results and Snakemake's metadata, to be edited."""
-    shutil.copytree(project.folder, tmp_path / "copy", symlinks=True)
-    return Project(tmp_path / "copy")
+    return Project(shutil.copytree(project.folder, tmp_path / "copy", symlinks=True))
 
 
 @pytest.mark.slow
@@ -192,10 +191,6 @@ def with_a_comment(path):
     return change
 
 
-def _harder(scene):
-    scene["liner"]["law"]["K"] = 9.09
-
-
 BEFORE_SWEEPS = ("build_mesh", "assemble", "reduce", "check_rom")
 # the change, targets, jobs of these rules, and jobs that are not run again
 CHANGES = {
@@ -208,7 +203,7 @@ CHANGES = {
     ),
     # of the other scene none
     "a liner": (
-        lambda project: project.edit(E10, _harder),
+        lambda project: project.edit(E10, lambda scene: scene["liner"]["law"].update(K=9.09)),
         [],
         {"sweep_block": 2, "sweep": 1},
         BEFORE_SWEEPS,
@@ -336,12 +331,8 @@ def test_files_of_odd_names_and_a_fault_of_a_base(tmp_path):
 
 def name_file(project, file):
     """The reference blade, which has scenes, from a table of sections in ``file``."""
-
-    def change(blade):
-        blade.pop("sections", None)
-        blade["section_table"] = {"file": str(file), "unit": "mm", "edge_cut_percent": 1}
-
-    project.edit(REFERENCE, change)
+    table = {"file": str(file), "unit": "mm", "edge_cut_percent": 1}
+    edited(REFERENCE, sections=None, section_table=table)(project)
 
 
 @pytest.mark.slow
