@@ -3,9 +3,12 @@
 from types import SimpleNamespace
 
 import numpy as np
+from scenes import RUBBING
 
+from geometry.base import ROOT
 from simulate.errors.run import Run
 from simulate.marching import check_scene, march, prepare
+from simulate.scene import Scene
 from simulate.sweeps.over_speeds import as_sweep, at_speeds
 
 
@@ -33,6 +36,22 @@ def swept(case, rom):
     """The scene's sweep, checked, without speeds added around peaks."""
     check_scene(case, rom)
     return as_sweep(at_speeds(case, rom, case.speeds.omega(rom.f1)))
+
+
+def of_paper(rom, over_f1, rounds, twin=False, **more):
+    """Runs of the coarse blade over speeds, of the paper's E = 10; ``more``: of the record."""
+    record = {"spectrum_rounds": 4, "samples_per_round": 256, "motion": 2} | more
+    case = Scene.load(ROOT / "workflow/scenes/paper-e10.yaml").but(
+        blade="coarse",
+        speeds={"over_f1": over_f1},
+        rounds=rounds,
+        peaks=None,
+        record=record,
+        liner__strips=8,
+        twin=twin,
+        **RUBBING,
+    )
+    return as_sweep(at_speeds(case, rom, rad_s(rom, np.array(over_f1))))
 
 
 def assert_is_that_of_the_peer(of_peer, case, rom, over_f1, most):

@@ -8,8 +8,8 @@ import shutil
 
 import numpy as np
 import pytest
+from runs import of_paper
 from scipy.spatial import cKDTree
-from test_stress import swept
 
 from fem.fatigue import von_mises
 from fem.fields import fields
@@ -35,7 +35,7 @@ SOUGHT = {"lines": {}, "modes": 4, "orders": ORDERS, "excited": {}}
 def response(coarse_rom):
     """A few speeds of the paper's E = 10, with all that the page can show."""
     more = {"states_rounds": 1, "history": {"chord": [0.0625]}}
-    return Response(swept(coarse_rom, SPEEDS, 8, twin=True, **more), coarse_rom)
+    return Response(of_paper(coarse_rom, SPEEDS, 8, twin=True, **more), coarse_rom)
 
 
 @pytest.fixture(scope="module")

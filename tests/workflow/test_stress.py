@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 import pyvista as pv
-from projects import ROOT
-from scenes import RUBBING
+from runs import of_paper
 from scipy.spatial import cKDTree
 
 from fem.fatigue import FIVE, damage, margin, numbers, reserve, uniaxial, von_mises
@@ -16,8 +15,7 @@ from geometry.blade import Fatigue
 from rom.coarser import coarser
 from simulate.errors.model_errors import ModelError
 from simulate.errors.stressed import at_node, mesh_errors, stress_of, through, with_rotation
-from simulate.scene import GROWING, Scene
-from simulate.sweeps.over_speeds import as_sweep, at_speeds
+from simulate.scene import GROWING
 from simulate.sweeps.peak_results import case_of, results, to_march, worst_stressed
 from workflow import stress as job
 from workflow.shapes import Shapes, motion, stresses
@@ -29,24 +27,8 @@ SPEEDS = [0.3, 0.34, 0.36]  # over f1(0)
 
 @pytest.fixture(scope="module")
 def sweep(coarse_rom):
-    runs = swept(coarse_rom, SPEEDS, 8)
+    runs = of_paper(coarse_rom, SPEEDS, 8)
     return runs.assign(trend=("speed_over_f1", ["steady", GROWING, "steady"]))
-
-
-def swept(rom, over_f1, rounds, twin=False, **more):
-    """Runs of the coarse blade over speeds, of the paper's E = 10; ``more``: of the record."""
-    record = {"spectrum_rounds": 4, "samples_per_round": 256, "motion": 2} | more
-    scene = Scene.load(ROOT / "workflow/scenes/paper-e10.yaml").but(
-        blade="coarse",
-        speeds={"over_f1": over_f1},
-        rounds=rounds,
-        peaks=None,
-        record=record,
-        liner__strips=8,
-        twin=twin,
-        **RUBBING,
-    )
-    return as_sweep(at_speeds(scene, rom, 2 * np.pi * rom.f1 * np.array(over_f1)))
 
 
 @pytest.fixture(scope="module")
@@ -168,7 +150,7 @@ def test_ten_drawn_runs_tell_the_largest_stress_of_all_their_revolutions(
     The largest between any two instants of the run is no less than that told beside it.
     """
     drawn = np.sort(np.random.default_rng(8).uniform(0.1, 0.39, 10)).round(3).tolist()
-    runs = swept(coarse_rom, drawn, 20, states_rounds=20, samples_per_round=512, motion=3)
+    runs = of_paper(coarse_rom, drawn, 20, states_rounds=20, samples_per_round=512, motion=3)
     told, _ = write(coarse_blade, coarse_mesh, coarse_rom, basis_file, runs)
     shapes = motion(runs["states"].values, coarse_rom.stiffness(0.0), job.SHAPES)
     sigma = stresses(solid, coarse_basis, shapes.shapes, coarse_blade.prestress)
@@ -193,7 +175,7 @@ def test_ten_drawn_runs_tell_the_largest_stress_of_all_their_revolutions(
 @pytest.fixture(scope="module")
 def worn_long(coarse_blade, coarse_mesh, coarse_rom, basis_file):
     """A sweep and its stress, with a slope of the S-N line."""
-    runs = swept(coarse_rom, SPEEDS, 8).assign_attrs(modes=4, orders=[4])
+    runs = of_paper(coarse_rom, SPEEDS, 8).assign_attrs(modes=4, orders=[4])
     blade = coarse_blade.but(fatigue=STRENGTH | {"slope_k": 9})
     return runs, write(blade, coarse_mesh, coarse_rom, basis_file, runs)[0]
 
@@ -246,7 +228,7 @@ def test_the_damage_is_that_of_all_revolutions(worn_long, coarse_rom):
     run = case_of(runs, to_march(runs, told), coarse_rom, peak).march()
     assert len(run.outcome.states) == 8 * 256
     found = stress_of(run, at_node(told, peak.index))
-    again = swept(coarse_rom, [told["worst"]], 8, states_rounds=8)["states"].values[0]
+    again = of_paper(coarse_rom, [told["worst"]], 8, states_rounds=8)["states"].values[0]
     by_itself = damage(uniaxial(with_rotation(again) @ at_node(told, peak.index).sigma), STEEP)
     assert found["damage"] == pytest.approx(by_itself, rel=1e-6, abs=0)
     least = 0.5 * found["margin"] ** -9 / 1e7  # of half of that cycle
