@@ -87,7 +87,7 @@ def test_a_rough_casing_is_passed_in_its_wide_windows(coarse_rom):
     ],
 )
 def test_a_step_too_long_is_refused_with_the_least_steps(coarse_rom, changes, over_f1, what):
-    steps = 640 if "liner__footprint_m" in changes else 64
+    steps = 640 if "liner__footprint_mm" in changes else 64
     error = refused(SceneError, check, exact(steps, **changes), coarse_rom, over_f1, match=what)
     assert (error.key, error.value) == ("integrator.steps_per_round", steps)
     least = error.allowed["ge"]

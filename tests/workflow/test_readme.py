@@ -71,7 +71,7 @@ def test_a_row_has_meaning_range_and_default(row):
 
 def test_what_the_page_says_a_scene_can_say_is_one():
     """Its lines, put into a scene of ours."""
-    (example,) = [code for code in blocks("simulate/README.md", "yaml") if "edge_drop_m" in code]
+    (example,) = [code for code in blocks("simulate/README.md", "yaml") if "edge_drop_um" in code]
     shown = yaml.safe_load(example)
     scene = yaml.safe_load((ROOT / "workflow/scenes/paper.yaml").read_text())
     liner = scene["liner"] | shown["liner"]
