@@ -15,7 +15,7 @@ from dolfinx.fem.petsc import LinearProblem, NonlinearProblem
 from fem.cholesky import Cholesky
 from fem.matrices import Prestressed
 from fem.solid import Solid, SymmetricForm, green_lagrange, small_strain
-from geometry.base import UserError
+from geometry.base import RPM, UserError
 
 DIRECT = {"ksp_type": "preonly", "pc_type": "cholesky", "pc_factor_mat_solver_type": "mumps"}
 NEWTON = {"snes_type": "newtonls", "snes_linesearch_type": "none", "snes_max_it": 25}
@@ -218,8 +218,8 @@ def _solve(problem: NonlinearProblem, speed: float, load: float, last: float) ->
     reached = snes.getFunctionNorm() / load
     if failure or not reached <= RESIDUAL_TOLERANCE:
         raise EquilibriumError(
-            f"no static equilibrium at {speed:.6g} rad/s (the last at {last:.6g} rad/s): after "
-            f"{snes.getIterationNumber()} Newton steps the residual is {reached:.1e} of the "
+            f"no static equilibrium at {RPM * speed:.6g} rpm (the last at {RPM * last:.6g} rpm): "
+            f"after {snes.getIterationNumber()} Newton steps the residual is {reached:.1e} of the "
             f"centrifugal load (wanted {RESIDUAL_TOLERANCE:.0e}; {failure}); lower the highest "
             f"speed or use prestress: linear"
         )
@@ -232,7 +232,7 @@ def _require_stable(negative: int, speed: float, last: float) -> None:
     """Refuse a tangent with negative pivots: directions in which the energy decreases."""
     if negative > 0:
         raise EquilibriumError(
-            f"the static equilibrium found at {speed:.6g} rad/s is not stable ({negative} negative "
-            f"eigenvalues of K; the last stable one is at {last:.6g} rad/s); lower the highest "
-            f"speed"
+            f"the static equilibrium found at {RPM * speed:.6g} rpm is not stable ({negative} "
+            f"negative eigenvalues of K; the last stable one is at {RPM * last:.6g} rpm); lower "
+            "the highest speed"
         )

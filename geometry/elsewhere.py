@@ -159,7 +159,8 @@ class MatricesElsewhere(SettingsFile):
         require(
             (
                 (self.max_speed_rpm is not None) == (len(self.full_matrices.K) == 1),
-                "is given where K is given at rest alone; else it is the last speed of K",
+                "give it where K is given at rest alone, and only there; "
+                "else it is the last speed of K",
             ),
             kind=SettingsError,
             key="max_speed_rpm",
@@ -259,6 +260,7 @@ def tip_checks(camber: NDArray[np.float64], span: float, top_speed: float) -> li
         (
             0 < speed <= MOST_TIP_SPEED,
             f"Omega_m: {top_speed:.6g} rad/s: the tip runs at {speed:.4g} m/s, allowed above 0 "
-            f"up to {MOST_TIP_SPEED:g}: check the unit (rad/s, not rpm; m)",
+            f"up to {MOST_TIP_SPEED:g}: check the unit (max_speed_rpm in rpm, "
+            "Omega_m and the speeds of K in rad/s; m)",
         ),
     ]

@@ -26,7 +26,6 @@ from geometry.base import MeshError
 from geometry.tetrahedra import EDGES, FACETS, check_middles
 
 # weights, of corners and of middles of edges
-OF_EDGE = np.full(2, 1 / 2)
 OF_FACE, OF_BRICK = np.repeat([-1 / 4, 1 / 2], 4), np.repeat([-1 / 4, 1 / 4], [8, 12])
 
 
@@ -216,7 +215,7 @@ def split(points: NDArray, blocks: Sequence[Block]) -> Split:
         edges.know(ends, np.concatenate([block.middles.ravel() for block in blocks]))
     else:
         ends = np.unique(np.sort(ends, axis=1), axis=0)
-        edges.make(ends, ends[:, [0, 0, 1, 1]], ends, OF_EDGE)
+        edges.make(ends, ends[:, [0, 0, 1, 1]], ends, np.full(2, 1 / 2))
     if any(block.kind is not KINDS["tetra"] for block in blocks):
         check_middles(edges.known, edges.known_middles)
         _check_quadrilaterals(blocks)

@@ -19,7 +19,7 @@ from pydantic import (
 from geometry.base.errors import Fault, SettingsError
 from geometry.base.provenance import other_format
 from geometry.base.strict_yaml import Keys
-from geometry.base.units import FORMER, converted
+from geometry.base.units import FORMER, OTHER, converted
 from geometry.base.yaml_file import Layer, merged, read_layers
 
 
@@ -151,7 +151,9 @@ def _as_now(model: type[Settings], values: Any) -> Any:
     """
     if not isinstance(values, dict):
         return values
-    fields, read = model.model_fields, dict(values)
+    fields = model.model_fields
+    # keys that are gone change nothing where they are off, as in results of 0.3.0
+    read = {key: value for key, value in values.items() if key not in model.replaced or value}
     for key in values.keys() & FORMER.keys() - fields.keys():
         former = FORMER[key]
         if values[key] is not None and values.get(former.now) is not None:
@@ -263,9 +265,10 @@ def _with_files(
 
 
 def _line(lines: dict[Keys, int], keys: Keys) -> int | None:
-    """The line of a key, or of the innermost mapping around it that the file has."""
+    """The line of a key, in either unit, or of the innermost mapping around it in the file."""
     around = (keys[:count] for count in range(len(keys), 0, -1))
-    return next((lines[part] for part in around if part in lines), None)
+    either = (part for key in around for part in (key, (*key[:-1], OTHER.get(key[-1], ""))))
+    return next((lines[part] for part in either if part in lines), None)
 
 
 def _faults(model: type[Settings], error: ValidationError) -> Iterator[Fault]:

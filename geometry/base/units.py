@@ -6,6 +6,7 @@ of liners, deg for angles. Inside, and in files of results, all is SI. ``FORMER`
 """
 
 from collections.abc import Callable
+from contextlib import suppress
 from decimal import Decimal
 from functools import partial
 from math import inf, nextafter, pi
@@ -61,10 +62,32 @@ OTHER |= {now: key for key, now in OTHER.items()}
 
 
 def converted(value: Any, convert: Callable[[float], float]) -> Any:
-    """All numbers of a value of a key: of a list, or of a range by its ends."""
-    if isinstance(value, dict):
-        return {k: v if k == "count" else converted(v, convert) for k, v in value.items()}
-    if isinstance(value, list | tuple):
+    """All numbers of a value of a key: also as texts, of a list, of a range by its ends.
+
+    What is no number stays, for the settings to refuse.
+    """
+    if isinstance(value, dict) or hasattr(value, "model_fields"):
+        return {k: v if k == "count" else converted(v, convert) for k, v in dict(value).items()}
+    if isinstance(value, list | tuple | range):
         return [converted(item, convert) for item in value]
-    number = isinstance(value, int | float) and not isinstance(value, bool)
-    return convert(value) if number else value
+    if hasattr(value, "tolist"):  # of NumPy
+        return converted(value.tolist(), convert)
+    with suppress(TypeError, ValueError, OverflowError):
+        return value if isinstance(value, bool) else convert(float(value))
+    return value
+
+
+def as_in(base: dict[str, Any], values: dict[str, Any]) -> dict[str, Any]:
+    """``base`` with a quantity under the key of ``values``, in its unit, where these have another.
+
+    >>> as_in({"rpm": {"first": 600, "count": 2}}, {"rad_s": {"first": 100}})
+    {'rad_s': {'first': 62.83185307179586, 'count': 2}}
+    """
+    read = {}
+    for key, value in base.items():
+        other = OTHER.get(key)
+        if other in values and key not in values and other not in base:
+            convert = FORMER[other].back if other in FORMER else FORMER[key].to_now
+            key, value = other, converted(value, convert)
+        read[key] = value
+    return read

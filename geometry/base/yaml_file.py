@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 from geometry.base.errors import Fault, SettingsError
 from geometry.base.strict_yaml import Keys, parse
 from geometry.base.text_file import read_text
-from geometry.base.units import OTHER
+from geometry.base.units import as_in
 
 BASE = "base"
 VARIANTS = "variants.yaml"  # holds the contents of further files, by name
@@ -75,14 +75,14 @@ def names(folder: str | Path) -> list[str]:
 def merged(base: Any, values: Any) -> Any:
     """``base`` updated by ``values``, recursively, without the keys that are null.
 
-    A key of ``values`` replaces the same quantity in another unit, too.
+    A key of ``values`` stands for the same quantity in another unit, too.
     """
     if not (isinstance(base, dict) and isinstance(values, dict)):
         return values
     if any(key in base and values.get(key, base[key]) != base[key] for key in DISCRIMINATORS):
         return values
-    kept = {key: value for key, value in base.items() if OTHER.get(key) not in values}
-    both = kept | {key: merged(kept.get(key), value) for key, value in values.items()}
+    base = as_in(base, values)
+    both = base | {key: merged(base.get(key), value) for key, value in values.items()}
     return {key: value for key, value in both.items() if value is not None}
 
 

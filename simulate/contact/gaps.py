@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from geometry.base import Fault, known
+from geometry.base import RPM, Fault, known
 from rom.model import Rom
 from simulate.contact.places import slope_at
 from simulate.scene import Gaps
@@ -95,10 +95,10 @@ def growth_fault(
             if not first * (1 - KNOWN) <= Omega <= last * (1 + KNOWN):
                 return [
                     Fault(
-                        f"covers {first:.6g} to {last:.6g} rad/s, not the {Omega:.6g} rad/s of "
-                        "speeds: add rows",
+                        f"covers {RPM * first:.6g} to {RPM * last:.6g} rpm, not the "
+                        f"{RPM * Omega:.6g} rpm of speeds: add rows",
                         name,
-                        allowed=(first, last),
+                        allowed=(RPM * first, RPM * last),
                     )
                 ]
     gaps = np.array(
@@ -114,11 +114,11 @@ def growth_fault(
     closes = "the tip grows" if of.at_rest else "the shift of the rotor closes it"
     return [
         Fault(
-            f"the gap {'at rest ' if of.at_rest else ''}is {given:.4g} m at xi = {xi[i]:.3g}, "
-            f"and {closes} there by {given - gaps[at, i]:.4g} m at {Omega:.6g} rad/s "
-            f"({Omega / rom.omega1:.4g} f1(0)): contact before the casing distorts; "
-            "allowed from that, or lower speeds",
+            f"the gap {'at rest ' if of.at_rest else ''}is {1e6 * given:.4g} um at "
+            f"xi = {xi[i]:.3g}, and {closes} there by {1e6 * (given - gaps[at, i]):.4g} um at "
+            f"{RPM * Omega:.6g} rpm ({Omega / rom.omega1:.4g} f1(0)): contact before the casing "
+            "distorts; allowed from that, or lower speeds",
             key,
-            allowed={"ge": given - gaps[at, i]},
+            allowed={"ge": 1e6 * (given - gaps[at, i])},
         )
     ]

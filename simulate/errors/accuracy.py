@@ -74,7 +74,7 @@ class Choice(Fineness):
     """Step, density and strips chosen by the pilot, with the errors that they are chosen by."""
 
     accuracy: float
-    # relative error of the reduced model, from its check; None of a foreign one, where not known
+    # relative error of the reduced model, from its check; None where not known, from elsewhere
     basis_error: float | None
     mesh_error: float | None  # relative, of frequencies and compliances; None where it is not known
     speeds: list[float]  # rad/s, of the pilot

@@ -6,7 +6,7 @@ from math import ceil
 import numpy as np
 from numpy.typing import NDArray
 
-from geometry.base import Fault
+from geometry.base import RPM, Fault
 from geometry.hats import middles
 from rom.model import DIRECTIONS, Rom
 from simulate.contact.gaps import given_gaps, growth_fault
@@ -129,7 +129,7 @@ def _speeds(speeds: Speeds, rom: Rom, blade: str) -> Iterator[Fault]:
     if highest > rom.Omega_m * (1 + ROUND_OFF):
         allowed = rom.Omega_m / speeds.in_rad_s(rom.f1)
         yield Fault(
-            f"allowed up to {allowed:.6g} (Omega_m = {rom.Omega_m:.6g} rad/s)"
+            f"allowed up to {allowed:.6g} (Omega_m = {RPM * rom.Omega_m:.6g} rpm)"
             f"{_remedy_of_speed(speeds, rom, blade, highest)}",
             f"speeds.{speeds.unit}",
             float(speeds.given.max()),
@@ -145,7 +145,7 @@ def _remedy_of_speed(speeds: Speeds, rom: Rom, blade: str, highest: float) -> st
         return "; speeds.over_f1 are over f1(0): speeds in rpm are speeds.rpm"
     return (
         f": f1(0) = {rom.f1:.5g} Hz is that of this mesh, higher on a coarser one; raise "
-        f"the highest speed of blade {blade} to {ceil(highest)} rad/s, or lower the speed"
+        f"max_speed_rpm of blade {blade} to {ceil(RPM * highest)}, or lower the speed"
     )
 
 
@@ -236,7 +236,7 @@ def _gaps(of: Gaps, rom: Rom) -> Iterator[Fault]:
     gaps = given_gaps(of, rom, [0, 1])
     if gaps.min() < 0:
         yield Fault(
-            f"the gap, linear along the chord, is {gaps.min():.3g} m at the "
+            f"the gap, linear along the chord, is {1e6 * gaps.min():.3g} um at the "
             f"{'leading' if gaps[0] < 0 else 'trailing'} edge; allowed from 0: the gaps at "
             f"xi = 1/16 and 15/16 may differ by a factor of 15 at most",
             "clearance",

@@ -13,7 +13,6 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from copy import deepcopy
 from dataclasses import dataclass
-from functools import partial
 from itertools import pairwise
 from pathlib import Path
 from typing import Any, Self
@@ -234,7 +233,13 @@ def placed(
     placed_there: dict[str, Any] = {}
     for column, value in changes.items():
         try:
-            _place(placed_there, values, keys(column), read(value))
+            path, convert = _of_now(values, keys(column))
+            _place(
+                placed_there,
+                values,
+                path,
+                converted(read(value), convert) if convert else read(value),
+            )
         except (ValueError, AttributeError, IndexError, TypeError):
             raise SettingsError(
                 "no YAML value, or no such place", key=column, value=value
@@ -269,20 +274,33 @@ def _place(changes: Any, base: Any, path: Keys, value: Any) -> None:
     changes[path[-1]] = value
 
 
+def _of_now(values: Any, path: Keys) -> tuple[Keys, Callable[[float], float] | None]:
+    """A path with the keys of now, and what converts its number, if it has a former one.
+
+    A key that the ``values`` have stays, as one of a law of one's own.
+    """
+    found, convert = [], None
+    for key in path:
+        if key in FORMER and not (isinstance(values, dict) and key in values):
+            key, convert = FORMER[key].now, FORMER[key].to_now
+        values = _under(values, key)
+        found.append(key)
+    return tuple(found), None if found[-1] == "count" else convert
+
+
 def value_at(scene: Any, column: str) -> Any:
-    """Value of a column's key in a scene, or in its values; None where it is not set."""
-    for key in keys(column):
-        if scene is None:
-            return None
-        scene = scene[key] if isinstance(key, int) else _under(scene, key)
-    return scene
+    """Value of a column's key, in its unit, in a scene or its values; None where it is not set."""
+    back = None
+    for key in (path := keys(column)):
+        found = _under(scene, key)
+        if found is None and key in FORMER:
+            found, back = _under(scene, FORMER[key].now), FORMER[key].back
+        scene = found
+    return scene if back is None or path[-1] == "count" else converted(scene, back)
 
 
-def _under(settings: Any, key: str) -> Any:
-    """Value of a key; of a former one in its unit."""
-    get = settings.get if isinstance(settings, dict) else partial(getattr, settings)
-    value = get(key, None)
-    if value is not None or key not in FORMER:
-        return value
-    former = FORMER[key]
-    return converted(get(former.now, None), former.back)
+def _under(settings: Any, key: str | int) -> Any:
+    """Value of a key, or of an item; None where there is none."""
+    if isinstance(key, int):
+        return settings[key] if settings is not None else None
+    return settings.get(key) if isinstance(settings, dict) else getattr(settings, key, None)

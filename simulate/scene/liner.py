@@ -22,6 +22,7 @@ class Liner(Settings):
     }
 
     hints: ClassVar = {
+        "thickness_mm": "in mm",
         "footprint_mm": "the arc over which one strip of the tip rubs, in mm",
     }
 

@@ -31,7 +31,7 @@ SpeedValues = Annotated[
 ]
 
 
-OVER_F1, OF_RPM = (1e-4, 20.0), (10.0, 1e6)  # slowest and fastest speed
+OVER_F1, OF_RPM = (1e-4, 20.0), (9.5, 1e6)  # slowest and fastest speed
 UNITS = {  # by key: these, and the likely slips
     "over_f1": (OVER_F1, "0.3 is usual; speeds in rpm are speeds.rpm"),
     "rpm": (OF_RPM, "1 Hz is 60 rpm; speeds over f1(0) are given as speeds.over_f1"),

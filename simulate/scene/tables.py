@@ -237,7 +237,7 @@ class Table(Points):
             )
         if (deepest := max(map(abs, depth))) > LARGEST_DEPTH:
             raise SettingsError(
-                f"allowed up to {LARGEST_DEPTH:g} um: is the column in mm or um? then name it "
+                f"allowed up to {LARGEST_DEPTH:g} um: name the column by its unit, depth_m, "
                 "depth_mm or depth_um",
                 key="depth_um",
                 value=deepest,

@@ -28,9 +28,6 @@ STEP, MODE_STRIP, ROD_STRIP = 1e-7, 3.5e-10, 4e-9  # s a step; and for each mode
 LONG, MUCH = 3600.0, 0.5  # s, and share of the machine's memory, from which it is warned
 SINGLE, DOUBLE = 4, 8  # bytes
 FEW_RODS = 4096  # as few as serve for a limit
-# Keys of a scene for second runs. Neither checks nor shorter steps than half are counted, which may
-# follow half the step.
-SECOND_RUNS = {"twin": TWIN, "halving": HALF}
 
 
 @dataclass(frozen=True)
@@ -88,7 +85,8 @@ def cost(scene: Scene, rom: Rom, speeds: int | None = None) -> Cost:
     if not steps:  # the limit, which does not depend on the rods: arrays of many take their time
         few = scene.but(liner__rods_per_round=min(scene.liner.nu, FEW_RODS))
         steps = min(prepare(few, rom, float(np.median(Omega))).steps, MAX_STEPS)
-    second_runs = [run for key, run in SECOND_RUNS.items() if getattr(scene, key)]
+    # neither checks nor shorter steps than half are counted, which may follow half the step
+    second_runs = [TWIN] * scene.twin + [HALF] * scene.halving
     all_steps = speeds * scene.rounds * steps * (1 + sum(run.cost for run in second_runs))
     return Cost(
         speeds=speeds,

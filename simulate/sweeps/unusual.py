@@ -96,7 +96,7 @@ def _of_gaps(
             widest > WIDE * span,
             "clearance",
             f"clearance: {1e3 * widest:.3g} mm, {100 * widest / span:.2g} % of the span; usual "
-            "are 0.01 to 1 %; is it in mm, or in %? it should be in m, or over the span",
+            "are 0.01 to 1 %; is it in mm, or in %? it should be in um, or over the span",
         ),
         *(
             (
@@ -146,8 +146,9 @@ def _of_liner(liner: Liner, rom: Rom) -> list[Implausible]:
         (
             rom.across == 1 and footprint > chord,
             "liner.footprint_mm",
-            f"liner.footprint_mm: {1e3 * footprint:g}: longer than the chord of {chord:.3g} m; it "
-            "is the arc over which one strip of the tip rubs, some mm; is it in mm or cm?",
+            f"liner.footprint_mm: {1e3 * footprint:g}: longer than the chord of "
+            f"{1e3 * chord:.3g} mm; it is the arc over which one strip of the tip rubs, some mm; "
+            "is it in um?",
         ),
         (
             modulus < SOFT,

@@ -1,6 +1,7 @@
 """Units of what users write: one for each quantity; keys of 0.3.0 give the same bits."""
 
 import re
+from decimal import Decimal
 
 import numpy as np
 import pytest
@@ -66,6 +67,10 @@ def test_a_key_in_both_units_is_refused():
     both = {"order": 2, "amplitude_m": 1e-5, "amplitude_um": 10}
     error = refused(SettingsError, check_settings, Harmonic, both, "")
     assert "amplitude_m: is given as amplitude_um, too" in str(error)
+    for text in ("4e-5", np.float64(4e-5), Decimal("4e-5")):
+        assert check_settings(Harmonic, {"order": 2, "amplitude_m": text}, "").size(1.0) == 4e-5
+    for odd in ("x", True, 10**400):
+        refused(SettingsError, check_settings, Harmonic, {"order": 2, "amplitude_m": odd}, "")
     for none in ({"amplitude_m": None}, {"amplitude_um": None, "amplitude_m": 1e-5}):
         assert check_settings(Harmonic, both | none, "").size(1.0) == 1e-5
 
@@ -75,7 +80,21 @@ def test_what_is_written_later_counts_in_either_unit():
     ours, before = {"liner": {"thickness_mm": 5}}, {"liner": {"thickness_m": 0.01, "strips": 8}}
     assert merged(ours, before) == before
     assert merged(before, ours) == {"liner": {"thickness_mm": 5, "strips": 8}}
-    assert placed(ours, {"liner.thickness_m": 0.02}) == {"liner": {"thickness_m": 0.02}}
+    assert placed(ours, {"liner.thickness_m": "0.02"}) == {"liner": {"thickness_mm": 20}}
+    wave = {"casing": {"harmonics": [{"order": 1, "amplitude_um": 10, "speed_rpm": 60}]}}
+    slower = placed(wave, {"casing.harmonics[0].speed_rad_s": np.pi})
+    assert slower["casing"]["harmonics"][0] == {"order": 1, "amplitude_um": 10, "speed_rpm": 30}
+    turns = {"speeds": {"rpm": {"first": 600, "last": 900, "count": 3}}}
+    faster = placed(turns, {"speeds.rad_s.last": 100, "speeds.rad_s.count": 5})["speeds"]["rpm"]
+    assert faster == {"first": 600, "last": pytest.approx(100 * RPM), "count": 5}
+    of_range = [value_at(turns, f"speeds.rad_s.{name}") for name in ("first", "count")]
+    assert of_range == [pytest.approx(20 * np.pi), 3]
+    both = merged(turns, {"speeds": {"rad_s": {"count": 9}}})["speeds"]["rad_s"]
+    assert both["count"] == 9 and both["last"] == pytest.approx(30 * np.pi)
+    own = {"liner": {"law": {"kind": "mine:Law", "stress_Pa": 3.0}}}
+    assert placed(own, {"liner.law.stress_Pa": 2}) == {
+        "liner": {"law": {"kind": "mine:Law", "stress_Pa": 2}}
+    }
     casing = Casing(harmonics=[{"order": 2, "amplitude_um": 10}], ramp_rounds=0)
     other = casing.but(harmonics=[{"order": 2, "amplitude_m": 3e-5}])
     assert other.harmonics[0].size(1.0) == 3e-5

@@ -8,7 +8,7 @@ from refused import refused
 from runs import rad_s
 from scenes import EXACT, scene
 
-from geometry.base import SettingsError
+from geometry.base import RPM, SettingsError
 from simulate.contact.gaps import gaps_at
 from simulate.marching import SceneError, check_scene, least_gap, prepare
 from simulate.scene import LEADING, TRAILING
@@ -91,9 +91,9 @@ def test_gap_that_the_tip_outgrows_is_refused_with_both_numbers_and_the_speed(gr
     Omega = rad_s(grown, 0.35)
     growth = 5e-5 * (Omega / grown.Omega_m) ** 2 * (1 - 0.2 / 16)
     assert str(refused(SceneError, check_scene, case, grown)) == (
-        f"clearance: the gap at rest is 4e-06 m at xi = 0.0625, and the tip grows there by "
-        f"{growth:.4g} m at {Omega:.6g} rad/s (0.35 f1(0)): contact before the casing distorts; "
-        f"allowed from that, or lower speeds"
+        "clearance: the gap at rest is 4 um at xi = 0.0625, and the tip grows there by "
+        f"{1e6 * growth:.4g} um at {RPM * Omega:.6g} rpm (0.35 f1(0)): contact before the casing "
+        "distorts; allowed from that, or lower speeds"
     )
     fits = at_rest(clearance=SMALL | {"leading_edge_um": 1.01e6 * growth})
     check_scene(fits.but(speeds={"over_f1": [0.2, 0.35]}), grown)
@@ -103,10 +103,10 @@ def test_gap_that_the_tip_outgrows_is_refused_with_both_numbers_and_the_speed(gr
 
 
 def test_speed_outside_the_thermal_table_and_model_without_growth_are_refused(grown):
-    table = {"speed_rad_s": [0, 100], "growth_um": [0, 1]}
+    table = {"speed_rpm": [0, 1000], "growth_um": [0, 1]}
     case = at_rest(clearance={**GAPS, "at": "rest", "thermal_growth": table})
     error = refused(SceneError, check_scene, case, grown)
-    assert (error.key, error.allowed) == ("clearance.thermal_growth", (0, 100))
+    assert (error.key, error.allowed) == ("clearance.thermal_growth", pytest.approx((0, 1000)))
     unknown = replace(grown, growth=np.empty((0, 0)))
     assert refused(SceneError, check_scene, at_rest(), unknown).key == "clearance.at"
     check_scene(scene(), unknown)

@@ -40,7 +40,7 @@ EXACT = {"integrator": {"scheme": "piecewise-exact", "steps_per_round": 640}}
         (
             {"liner__footprint_mm": 200},
             "liner.footprint_mm",
-            ["longer than the chord", "mm or cm?"],
+            ["longer than the chord", "is it in um?"],
         ),
         (
             {"contact": {"profile": {"tilt": 0.5}}},

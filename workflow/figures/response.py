@@ -166,7 +166,7 @@ def liner_and_tip(scene: Scene) -> str:
     unit = getattr(law, "unit_Pa", None)
     listed = [
         f"{_symbol(name)} = {EngFormatter('Pa')(rounded(unit * x, 3)) if unit else f'{x:g}'}"
-        for name, x in law.model_dump(exclude={"kind", "unit_MPa"}).items()
+        for name, x in law.model_dump(exclude={"kind", "unit_MPa", "unit_Pa"}).items()
         if isinstance(x, int | float)  # no curve, nor what a law of one's own may have
     ]
     label = ", ".join([law.called, *listed]) if listed else f"liner: {law.called}"

@@ -165,9 +165,8 @@ def _looks(response: Response, marks: Marks) -> dict[int, tuple[Any, str]]:
     """
     peaks = sorted(response.peaks, key=lambda peak: -peak.amplitude)
     of_peaks = [peak.k for peak in peaks if peak.k % 1 == 0]
-    marked = [k for *_, k in marks.spans]
     of_casing = [k for k in response.orders if k in response.scene.casing.orders]
-    orders = dict.fromkeys([*marked, *of_peaks, *of_casing])
+    orders = dict.fromkeys([*(k for *_, k in marks.spans), *of_peaks, *of_casing])
     return dict(sorted(zip(orders, LOOKS, strict=False)))
 
 
@@ -190,8 +189,8 @@ def _mark(axes: Axes, marks: Marks, curves: Mapping[int, tuple[Any, str]]) -> li
     for low, high, k in marks.spans:
         axes.axvspan(low, high, color=curves[k][1], alpha=SHADE, linewidth=0, zorder=0)
         style.note(axes, ((low + high) / 2, 0), str(k), (0, 2), xycoords=across, ha="center")
-    key = Patch(color=style.GREY, alpha=SHADE, linewidth=0, label=marks.label)
-    return [key] if marks.spans else []
+    shaded = [Patch(color=style.GREY, alpha=SHADE, linewidth=0, label=marks.label)]
+    return shaded if marks.spans else []
 
 
 def _name(axes: Axes, response: Response, peak: Peak, across: float) -> None:

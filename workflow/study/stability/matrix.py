@@ -27,7 +27,7 @@ from simulate.errors.checked import checked
 from simulate.errors.neighbour import Neighbour
 from simulate.errors.neighbours import judged
 from simulate.errors.observables import Observables, observables, relative_differences
-from simulate.errors.resolution import check_resolution, risk
+from simulate.errors.resolution import check_resolution
 from simulate.errors.run import Case as Marched, Run
 from simulate.marching import (
     STATED,
@@ -149,10 +149,8 @@ class End:
     checked: Verdict  # with all checks
     message: str = ""  # of a refusal
     steps: int = 0  # marched
-    risk: float = 0.0
     cost: float = 0.0  # steps of the check by default, over those of the run
     contact: bool = False
-    numerical: float = 0.0  # energy over the casing's work
     bound: dict[str, float] = field(default_factory=dict)  # of the relative error, by all checks
     error: dict[str, float] = field(default_factory=dict)  # relative, against the reference
     spread: dict[str, float] = field(default_factory=dict)  # of the reference
@@ -167,7 +165,7 @@ def judge_case(case: Case, rom: Rom) -> End:
         refused = _refused(error)
         return End(refused, refused, refused, str(error))
     run = judged(of.case.march())
-    outcome, ledger = run.outcome, run.outcome.ledger
+    outcome = run.outcome
     exact = references(of) if outcome.status in TO_THE_END else ()
     (by_default,), _ = checked([run], run.scene.checked_share)
     alone, with_all = _refusal(run, halving=False), _refusal(run, halving=True)
@@ -177,10 +175,8 @@ def judge_case(case: Case, rom: Rom) -> End:
         alone or _verdict(by_default, exact),
         with_all or _verdict(best, exact),
         steps=run.setup.steps * run.scene.rounds,
-        risk=risk(run),
         cost=0.0 if alone else by_default.steps / run.steps - 1,
         contact=outcome.contact_share > 0,
-        numerical=ledger.numerical / ledger.casing if ledger.casing else 0.0,
         bound=best.errors,
         **_against(exact, run),
     )
