@@ -100,7 +100,7 @@ FAULTS = {  # by the word that the message has for them: changes of the file
     "must be above 1e-14 of its largest": lambda rom: {
         "M": (OF_M, with_values(rom.M, (-1, 0), ((slice(None), -1), 0), ((-1, -1), 1e-25)))
     },
-    "check the unit (rad/s": lambda rom: {"Omega_m": rom.Omega_m * 60 / (2 * np.pi)},
+    "Omega_m and the speeds of K in rad/s": lambda rom: {"Omega_m": rom.Omega_m * 60 / (2 * np.pi)},
     "f1: 0.259": lambda rom: {"f1": 1e-3 * rom.f1},
     "point 2 lies": lambda rom: {
         "points": (
