@@ -106,6 +106,26 @@ def linearised(
     return np.array(averaged)[..., *TENSOR].swapaxes(0, 1)
 
 
+def disagreement(
+    solid: Solid, u: NDArray[np.float64], along: NDArray[np.float64], prestress: str, node: int
+) -> NDArray[np.float64]:
+    """Von Mises stress (1 + k,), Pa, by which the cells of a node differ from their mean.
+
+    Root mean square over the cells, the largest of the node and those ``around`` it; of the stress
+    of ``u``, then of that per unit of each of ``along``, as of ``linearised``. The exact stress is
+    continuous: this is a measure of the error of the mesh there (Zienkiewicz and Zhu, Int. J.
+    Numer. Meth. Engng. 24, 1987).
+    """
+    nodes = around(solid, node)
+    cells = cells_of(solid, nodes)
+    of_cells, average = solid.V.dofmap.list[cells], _average(solid, cells)
+    found = []
+    for (sigma,) in _rows(solid, u, along, prestress, cells, strain=False):
+        off = sigma - _averaged(average, sigma)[of_cells]
+        found.append(np.sqrt((average[nodes] @ von_mises(off[..., *TENSOR]).ravel() ** 2).max()))
+    return np.array(found)
+
+
 def around(solid: Solid, node: int) -> NDArray[np.int64]:
     """A node, and all others of its cells."""
     return np.unique(solid.V.dofmap.list[cells_of(solid, np.array([node]))])

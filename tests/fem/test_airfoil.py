@@ -14,18 +14,7 @@ from dolfinx.io.gmsh import model_to_mesh
 
 from fem.assemble import assemble
 from fem.fatigue import FIVE, von_mises
-from fem.fields import (
-    TENSOR,
-    _average,
-    _averaged,
-    _rows,
-    airfoil,
-    around,
-    cells_of,
-    dofs_at,
-    linearised,
-    thickness,
-)
+from fem.fields import airfoil, disagreement, dofs_at, linearised, thickness
 from fem.solid import make_solid, read_solid, small_strain
 from fem.worst_node import cycles, worst
 from geometry.base import SettingsError
@@ -34,24 +23,6 @@ from geometry.mesh import build_mesh
 from geometry.shape import session
 
 STILL = Material(young_modulus_GPa=200, poisson_ratio=0.0, density_kg_m3=7800)
-
-
-def disagreement(solid, u, along, prestress, node):
-    """Von Mises stress (1 + k,), Pa, by which the cells of a node differ from their mean.
-
-    Root mean square over the cells, the largest of the node and those ``around`` it; of the stress
-    of ``u``, then of that per unit of each of ``along``, as of ``linearised``. The exact stress is
-    continuous: this is a measure of the error of the mesh there (Zienkiewicz and Zhu, Int. J.
-    Numer. Meth. Engng. 24, 1987).
-    """
-    nodes = around(solid, node)
-    cells = cells_of(solid, nodes)
-    of_cells, average = solid.V.dofmap.list[cells], _average(solid, cells)
-    found = []
-    for (sigma,) in _rows(solid, u, along, prestress, cells, strain=False):
-        off = sigma - _averaged(average, sigma)[of_cells]
-        found.append(np.sqrt((average[nodes] @ von_mises(off[..., *TENSOR]).ravel() ** 2).max()))
-    return np.array(found)
 
 
 def test_the_thickness_is_the_largest_circle_in_the_clamped_face():
