@@ -302,5 +302,5 @@ def value_at(scene: Any, column: str) -> Any:
 def _under(settings: Any, key: str | int) -> Any:
     """Value of a key, or of an item; None where there is none."""
     if isinstance(key, int):
-        return settings[key] if settings is not None else None
+        return settings[key] if settings is not None and key < len(settings) else None
     return settings.get(key) if isinstance(settings, dict) else getattr(settings, key, None)
