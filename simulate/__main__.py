@@ -21,9 +21,7 @@ from rom.model import Rom
 from simulate.errors.accuracy import Choice, pilot
 from simulate.marching import SceneError
 from simulate.scene import Scene, own_laws
-from simulate.scene.design import Design
 from simulate.sweeps.dataset import load, save
-from simulate.sweeps.design_runs import Engine, march_block, row_table, save as save_table
 from simulate.sweeps.sweep import sweep
 
 
@@ -36,14 +34,7 @@ def main(arguments: list[str] | None = None) -> None:
     )
     parser.add_argument("scene", help="scene, YAML")
     parser.add_argument("--version", action="version", version=f"Tiprub {version()}")
-    parser.add_argument(
-        "-o",
-        "--output",
-        required=True,
-        help="sweep to write, NetCDF; of a "
-        "design out.nc the tables out-runs.nc and out-rows.nc, with its parts in out-parts/",
-    )
-    parser.add_argument("--row", type=int, help="run one row of the scene's design as a sweep")
+    parser.add_argument("-o", "--output", required=True, help="sweep to write, NetCDF")
     parser.add_argument(
         "--law",
         action="append",
@@ -63,7 +54,7 @@ def main(arguments: list[str] | None = None) -> None:
 
 
 def _run(options: argparse.Namespace) -> None:
-    """Write the sweep of a scene, or the tables of its design."""
+    """Write the sweep of a scene."""
     output = Path(options.output)
     if (output.exists() and not output.is_file()) or not output.parent.is_dir():
         raise WriteError("cannot be written: not a file in an existing folder", file=output)
@@ -75,26 +66,11 @@ def _run(options: argparse.Namespace) -> None:
     scene = Scene.load(options.scene)
     rom = load_model(options.rom, scene.blade)
     _require_current(rom, Path(options.rom), scene, Path(options.scene))
-    if options.row is not None:
-        scene = Design.of(scene, Path(options.scene)).require_row(options.row)
-    if scene.design:
-        _write_tables(Design.of(scene, Path(options.scene)), rom, options)
-        return
     choice = _choice(scene, rom, Path(options.rom)) if scene.accuracy else None
     start = load(options.start) if options.start else None
     result = sweep(scene, rom, print, choice, start)
     named = result.assign_attrs(name=Path(options.scene).stem)
     write_or_keep(partial(save, named), output)
-
-
-def _write_tables(design: Design, rom: Rom, options: argparse.Namespace) -> None:
-    """March all rows of a design that are not done, and write its two tables."""
-    output, base = Path(options.output), design.base
-    choice = _choice(base, rom, Path(options.rom)) if base.accuracy else None
-    engine = Engine.of(design, rom, choice)
-    runs = march_block(engine, output.with_name(f"{output.stem}-parts"), report=print)
-    for name, table in (("runs", runs), ("rows", row_table(engine, runs))):
-        write_or_keep(partial(save_table, table), output.with_name(f"{output.stem}-{name}.nc"))
 
 
 def _require_current(rom: Rom, path: Path, scene: Scene, scene_path: Path) -> None:

@@ -177,11 +177,17 @@ def lobe_count(wear: NDArray[np.float64]) -> int:
     smooth = blurred(wear, LOBE_BLUR)
     start = int(smooth.argmin())  # cut the circle where wear is least: no lobe is split
     unrolled = np.concatenate([np.roll(smooth, -start), smooth[start : start + 1]])
-    return int((maxima(unrolled)[1] >= LOBE_PROMINENCE * smooth.max()).sum())
+    least = LOBE_PROMINENCE * smooth.max()
+    return int((maxima(unrolled, least)[1] >= least).sum())
 
 
-def maxima(values: NDArray[np.float64]) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+def maxima(
+    values: NDArray[np.float64], least: float = 0.0
+) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
     """Places of the inner maxima of ``values`` (n,), and by how much each stands out.
+
+    Those that cannot stand out by the ``least``, as they are not so far above the lowest value, are
+    left out: a smooth profile has hundreds of the size of rounding.
 
     The prominence of topography: down to the higher of the lowest values on both sides, on the way
     to a higher one or to the end. That of ``scipy.signal.find_peaks``, whose import takes longer
@@ -197,5 +203,6 @@ def maxima(values: NDArray[np.float64]) -> tuple[NDArray[np.int64], NDArray[np.f
         return outward[: higher[0] if len(higher) else None].min()
 
     tops = 1 + np.flatnonzero((values[1:-1] > values[:-2]) & (values[1:-1] >= values[2:]))
+    tops = tops[values[tops] - values.min(initial=np.inf) >= least]
     bases = [max(lowest(values[top::-1]), lowest(values[top:])) for top in tops]
     return tops, values[tops] - np.array(bases)

@@ -10,9 +10,9 @@ from geometry.blade import Blade
 
 CORE = "simulate"  # folder
 BEYOND = {  # its files of more than one run: sweeps, second runs, what shows them
-    *("test_peak_results", "test_cli", "test_cost", "test_dataset", "test_design", "test_examples"),
+    *("test_peak_results", "test_cli", "test_cost", "test_dataset", "test_examples"),
     *("test_checked", "test_extremes", "test_face", "test_kernel_file", "test_neighbours"),
-    *("test_plausible", "test_results_page", "test_sobol", "test_start"),
+    *("test_plausible", "test_results_page", "test_start"),
 }
 
 

@@ -29,7 +29,7 @@ from geometry.base import (
 from geometry.blade import Blade, Interface
 from geometry.elsewhere import read_blade
 from simulate.scene import Scene
-from workflow.experiment.plan import Experiment
+from workflow.many.plan import Experiment
 
 TEMPLATES = Path(__file__).parent / "templates"
 FOLDERS = {kind: f"workflow/{kind}s" for kind in ("blade", "scene", "experiment")}

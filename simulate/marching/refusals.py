@@ -62,8 +62,8 @@ def require_sweep(scene: Scene) -> None:
     """
     if scene.design is not None:
         raise SceneError(
-            "a table of scenes, no single sweep: run it with `python -m simulate` or "
-            "simulate.sweeps.design_runs, or one row of it with `--row`",
+            "a table of scenes, no single sweep: run it with ./run snakemake "
+            f"results/{scene.blade}/SCENE/design.csv, or workflow.many in Python",
             key="design",
             value=scene.design,
         )

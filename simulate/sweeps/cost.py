@@ -25,6 +25,7 @@ from simulate.marching.setup import MAX_STEPS
 from simulate.scene import Liner, Record, Scene
 
 STEP, MODE_STRIP, ROD_STRIP = 1e-7, 3.5e-10, 4e-9  # s a step; and for each mode, rod of a strip
+RUN = 0.01  # s a run: its set-up and its numbers
 LONG, MUCH = 3600.0, 0.5  # s, and share of the machine's memory, from which it is warned
 SINGLE, DOUBLE = 4, 8  # bytes
 FEW_RODS = 4096  # as few as serve for a limit
@@ -87,7 +88,8 @@ def cost(scene: Scene, rom: Rom, speeds: int | None = None) -> Cost:
         steps = min(prepare(few, rom, float(np.median(Omega))).steps, MAX_STEPS)
     # neither checks nor shorter steps than half are counted, which may follow half the step
     second_runs = [TWIN] * scene.twin + [HALF] * scene.halving
-    all_steps = speeds * scene.rounds * steps * (1 + sum(run.cost for run in second_runs))
+    runs = speeds * (1 + sum(run.cost for run in second_runs))
+    all_steps = runs * scene.rounds * steps
     return Cost(
         speeds=speeds,
         rounds=scene.rounds,
@@ -96,7 +98,7 @@ def cost(scene: Scene, rom: Rom, speeds: int | None = None) -> Cost:
         second_runs=second_runs,
         more=scene.peaks.most if scene.peaks and not scene.peaks.orders else 0,
         all_steps=all_steps,
-        seconds=all_steps * _of_step(scene.liner, rom, steps),
+        seconds=all_steps * _of_step(scene.liner, rom, steps) + RUN * runs,
         memory=_memory(speeds, scene.record, scene.liner, scene.rounds, rom.n),
     )
 

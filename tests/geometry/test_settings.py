@@ -11,8 +11,8 @@ from geometry.base import RPM, Settings, SettingsError, check_settings
 from geometry.base.settings import _listed
 from geometry.blade import MOST_TIP_SPEED, Blade, Material
 from geometry.profile import profile_at
-from simulate.scene.design import Design  # noqa: F401  with all settings of scenes
 from workflow.config import Config  # noqa: F401
+from workflow.many.design import Design  # noqa: F401  with all settings of scenes
 
 PACKAGES = ("geometry", "simulate", "workflow")
 REFERENCE = (Path(__file__).parents[2] / "workflow/blades/reference.yaml").read_text()

@@ -13,9 +13,9 @@ from geometry.blade import Blade
 from geometry.elsewhere import MatricesElsewhere
 from simulate.scene import Scene
 from simulate.scene.casing import Casing, Clearance, Harmonic
-from simulate.scene.design import placed, value_at
 from simulate.scene.laws.plastic import Plastic
 from simulate.scene.tables import Table, Thermal
+from workflow.many.columns import placed, value_at
 
 UNITS = {"mm", "um", "rpm", "MPa", "GPa", "deg"}  # of lengths, speeds, stresses, angles
 OTHERS = {"m", "cm", "rad_s", "s", "Pa", "kPa", "Hz", "hz", "rad"} | {*FORMER}

@@ -14,11 +14,11 @@ from scenes import SCENE
 from yaml_cases import WORKFLOW, Cases
 from yaml_oracle import differ, leaves
 
-from geometry.base import about, check_settings
+from geometry.base import SettingsError, about, check_settings, require
 from geometry.blade import Blade
 from geometry.section_table import read_sections
 from simulate.scene import Scene
-from simulate.scene.design import Design
+from workflow.many.design import Design
 
 SECTIONS = (WORKFLOW / "blades/rotor37-sections.csv").read_text()
 BLADE = Blade.load(WORKFLOW / "blades/rotor37.yaml").section_table
@@ -164,9 +164,10 @@ def designs() -> Cases:
         def fault(design: Any) -> str:
             rows = [row.split(",") for row in text.split("\n")[1:]]
             rows = [row for row in rows if any(cell.strip() for cell in row)]
-            if len(design.scenes) != len(rows):
-                return f"{len(design.scenes)} rows of {len(rows)}"
-            for scene, row in zip(design.scenes, rows, strict=True):
+            scenes = [row.scene for row in design.rows()]
+            if len(scenes) != len(rows):
+                return f"{len(scenes)} rows of {len(rows)}"
+            for scene, row in zip(scenes, rows, strict=True):
                 cells = zip(keys, row, strict=True)
                 said = {key: _said(cell) for key, cell in cells if cell.strip()}
                 held = {key: value for key, value in leaves(scene).items() if key in said}
@@ -175,12 +176,15 @@ def designs() -> Cases:
             return ""
 
         def read(folder: Path) -> Any:
-            return Design.of(base, folder / "scene.yaml")
+            design = Design.of(base, folder / "scene.yaml")
+            for row in design.rows():  # a row that is refused stays a row
+                require((not row.refused, row.refused), kind=SettingsError, file=design.path)
+            return design
 
         return Case("design", change, {"t.csv": text.encode()}, read, must, fault)
 
     odd = ["010", "1:30", "1_000", "nan", "[1]", "x", "-1", "1e3", "5", "!!int 5", "&a [*a]"]
-    names = ["", "blade", "x", "liner", "liner..E", "casing.harmonics[9].order", "rounds.x"]
+    names = ["", "blade.x", "x", "liner", "liner..E", "casing.harmonics[9].order", "rounds.x"]
     plain = st.text(st.characters(exclude_characters=',\n\r;"\t#'), max_size=8)
     cells = cell(DESIGN, [1, 2, 3], [*odd, "[" * 50], plain)
     columns = cell(DESIGN, [0], names, plain)

@@ -12,7 +12,8 @@ from simulate import Scene
 
 MODULES = {
     *("simulate.contact.compiled", "simulate.errors.observables", "simulate.signals"),
-    *("simulate.scene.design", "simulate.scene.tables", "simulate.sweeps.result_types"),
+    *("simulate.scene.tables", "simulate.sweeps.result_types"),
+    *("workflow.many.columns", "workflow.many.design", "workflow.many.plan", "workflow.many.table"),
     *("simulate.marching.states", "simulate.marching.trend", "simulate.sweeps.crossings"),
     *simulate.FACE.values(),
 }

@@ -9,10 +9,10 @@ from scenes import scene
 from geometry.base import ROOT
 from simulate import march
 from simulate.scene import Scene
-from simulate.scene.design import Design
-from simulate.sweeps.design_runs import Engine
 from simulate.sweeps.sweep import sweep
 from simulate.sweeps.unusual import SceneWarning, doubts
+from workflow.many.design import Design
+from workflow.many.engine import march_block
 
 EXACT = {"integrator": {"scheme": "piecewise-exact", "steps_per_round": 640}}
 
@@ -86,5 +86,5 @@ def test_a_design_warns_once_with_its_first_row(coarse_rom, tmp_path):
     of = Design.of(scene(**EXACT).but(design="table.csv"), tmp_path / "scene.yaml")
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
-        Engine.of(of, coarse_rom)
+        march_block(of.rows(), tmp_path / "rows", 3, models={"coarse": coarse_rom})
     assert [str(one.message)[:25] for one in caught] == ["row 2: damping_ratio: 0.4"]

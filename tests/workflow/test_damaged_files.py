@@ -29,11 +29,12 @@ from rom.model import Rom
 from rom.reconstruct import Basis
 from simulate.errors.accuracy import Choice, require_model
 from simulate.errors.model_errors import ModelErrors
-from simulate.scene.design import Design
-from simulate.sweeps import dataset, design_runs
-from simulate.sweeps.design_runs import Engine, march_block, row_table
+from simulate.sweeps import dataset
 from workflow.figures import rendering
 from workflow.jobs.figure import origins
+from workflow.many import design_rows
+from workflow.many.design import Design
+from workflow.many.engine import march_block
 
 SEED = 20
 DAMAGES = 32  # of each file
@@ -89,8 +90,8 @@ def readers(project, coarse_blade) -> dict[Path, Callable[[Path], Any]]:
         peak / "sweep.nc": sweep,
         peak / "stress.vtu": fields_of_peak,
         peak / "stress.json": read_json,
-        blade / "runs.nc": design_runs.load,
-        blade / "rows.nc": design_runs.load,
+        blade / "runs.nc": design_rows.load,
+        blade / "rows.nc": design_rows.load,
     }
 
 
@@ -106,10 +107,12 @@ def _write_tables(blade: Path, rom: Rom) -> None:
     """The tables of a design of two rows."""
     (blade / "mine.csv").write_text("liner.law.K\n0.3\n0.45\n")
     base = scene(blade="paper", rounds=1, design="mine.csv", speeds={"over_f1": [0.3, 0.32]})
-    engine = Engine.of(Design.of(base, blade / "mine.yaml"), rom)
-    runs = march_block(engine, blade / "parts")
-    design_runs.save(runs, blade / "runs.nc")
-    design_runs.save(row_table(engine, runs), blade / "rows.nc")
+    design = Design.of(base, blade / "mine.yaml")
+    entries = march_block(design.rows(), blade / "rows", 2, models={"paper": rom})
+    for name, table in zip(
+        ("runs", "rows"), design_rows.tables(design, rom, [entries], blade / "rows"), strict=True
+    ):
+        design_rows.save(table, blade / f"{name}.nc")
 
 
 def same(a: Any, b: Any) -> bool:
@@ -188,8 +191,8 @@ def numbers_of(path: Path, right: Any) -> list[str]:
         sparse = [f"{f.name}_{part}" for f in held if f.metadata["sparse"] for part in CSR]
         return [*sparse, *(name for name in must if name != "directions")]
     if path.name == "rows.nc":
-        return [*design_runs.ROW_COLUMNS]
-    must = design_runs.ALWAYS if path.name == "runs.nc" else {*dataset.DIMS} - {"status"}
+        return [*design_rows.ROW_COLUMNS]
+    must = design_rows.ALWAYS if path.name == "runs.nc" else {*dataset.DIMS} - {"status"}
     return sorted(must & {*right.variables})
 
 
@@ -284,7 +287,7 @@ def test_checks_take_at_most_two_percent_of_a_run(readers, project, monkeypatch,
         monkeypatch.setattr(module, name, run)
 
     checks = {stored: "require_symmetric", Rom: "require_possible"}
-    checks |= {dataset: "_require_runs", design_runs: "_require_columns"}
+    checks |= {dataset: "_require_runs", design_rows: "_require_columns"}
     sealing = (files, solid, rendering)
     others = (stored, "tril"), *((module, "intact") for module in sealing)
     for module, name in (*checks.items(), *others):

@@ -7,14 +7,17 @@ import yaml
 from projects import make_project
 from refused import refused
 
-from geometry.base import SettingsError, UserError, read_json
+from geometry.base import SettingsError, UserError, read_json, silent
 from simulate.errors.observables import differences
 from simulate.sweeps.sweep import sweep
 from tests.simulate.scenes import scene
-from workflow.experiment import engine, table
-from workflow.experiment.numbers import peaks
-from workflow.experiment.plan import PlannedRow, cases
 from workflow.figures import experiment as picture
+from workflow.jobs.many import experiment
+from workflow.many import engine, table
+from workflow.many.numbers import peaks
+from workflow.many.plan import cases
+from workflow.many.row import Row
+from workflow.many.store import Store
 
 SCENE = scene(
     speeds={"over_f1": [0.33]},
@@ -59,7 +62,7 @@ def test_every_row_is_run_on_every_scene_with_its_own_values(planned):
         integrator__steps_per_round=2 * steps
     )
     assert of["fine", "one"].file("rom") == "results/coarse/rom-rt.nc"
-    assert all(PlannedRow.model_validate(case.model_dump(mode="json")) == case for case in found)
+    assert all(Row.model_validate(case.model_dump(mode="json")) == case for case in found)
 
 
 def test_lists_are_combined_and_scenes_may_be_written_in_place(planned):
@@ -80,7 +83,7 @@ def test_lists_are_combined_and_scenes_may_be_written_in_place(planned):
     assert found[3].scene.liner.law.E == 2.0 and found[3].scene.liner.law.K == 3.0
     assert found[-1].scene.liner.law.E == 20.0
     assert found[0].function == "workflow.paper.measure:coating"
-    assert found[-1].function == "workflow.experiment.numbers:peaks"
+    assert found[-1].function == "workflow.many.numbers:peaks"
     assert (found[1].against, found[1].group, found[-1].against) == ("E 1, own K", "grid", None)
 
 
@@ -133,11 +136,11 @@ def test_a_fault_of_a_scene_names_its_own_file(planned):
     assert (error.file, error.key) == (str(scene), "damping_ratio")
 
 
-def one(row, function="workflow.experiment.numbers:peaks", against=None, **changes):
+def one(row, function="workflow.many.numbers:peaks", against=None, **changes):
     """A case on the coarse blade."""
     of = {"function": function, "against": against, "model": None, "needs": ["rom"]}
     of |= {"group": "", "label": "only", "names": (row,), "directions": "r"}
-    return PlannedRow(scene=SCENE.but(**changes), **of)
+    return Row(scene=SCENE.but(**changes), **of)
 
 
 @pytest.fixture
@@ -157,8 +160,12 @@ def on_coarse(coarse_rom, monkeypatch):
 
 def march(rows, folder, block=0, blocks=1):
     """A block of these rows, as a job marches them."""
-    planned = [PlannedRow.model_validate(row.model_dump(mode="json")) for row in rows]
-    return engine.march_block(planned, folder, block, blocks)
+    planned = [
+        Row.model_validate(row.model_dump(mode="json") | {"number": number})
+        for number, row in enumerate(rows, 1)
+    ]
+    entries = experiment(planned, blocks, str(block), folder, silent)
+    return table.rows([entries], folder)
 
 
 def test_rows_that_are_done_are_not_marched_again(on_coarse, tmp_path):
@@ -243,9 +250,27 @@ def test_a_row_that_is_not_marched_needs_no_model(coarse_yaml, monkeypatch, tmp_
     assert (found["numbers"], found["cpu_s"]) == ({"size": 10.0}, 0)
 
 
-def test_a_refused_row_is_named(on_coarse, tmp_path):
-    error = refused(UserError, march, [one("fast", speeds={"over_f1": [9.0]})], tmp_path)
-    assert error.key.startswith("fast, only")
+def test_a_refused_row_stays_a_row_with_its_reason(on_coarse, tmp_path):
+    fast, as_it_is = march([one("fast", speeds={"over_f1": [9.0]}), one("as it is")], tmp_path)
+    assert fast["refused"].startswith("speeds.over_f1: 9: ") and fast["numbers"] is None
+    assert "refused" not in as_it_is and as_it_is["numbers"]["ok"] == 1
+    assert ",refused," in table.csv([fast, as_it_is]) and ",refused," not in table.csv([as_it_is])
+
+
+def told_number(number, scene):
+    """A function of numbers that takes the number of its row."""
+    return {"twice": 2 * number * scene.rounds}
+
+
+def test_rows_that_are_drawn_know_their_number(on_coarse, planned, monkeypatch, tmp_path):
+    drawn = planned("of: [one]\ndrawn: 3\n")
+    assert [(row.number, row.row, row.scene) for row in drawn] == [
+        (number, str(number), SCENE) for number in (1, 2, 3)
+    ]
+    monkeypatch.setattr(engine, "code_hash", lambda *modules: "")  # of a test
+    rows = [one(row.row, f"{__name__}:told_number") for row in drawn]
+    found = march(rows, tmp_path / "rows")
+    assert [row["numbers"]["twice"] for row in found] == [2 * n * SCENE.rounds for n in (1, 2, 3)]
 
 
 PICTURES = {
@@ -328,10 +353,10 @@ def test_an_experiment_of_a_user_goes_on_where_it_was(tmp_path):
     assert found[0]["numbers"] != found[1]["numbers"] != found[2]["numbers"]
     mine.write_text(MINE.replace("picture", "  soft: {liner.law.K: 0.3}\npicture"))
     assert project.planned(target) == {"experiment_block": 2, "experiment": 1}
-    kept = {file.name for file in (project.folder / "results/experiments/mine/rows").iterdir()}
+    folder = project.folder / "results/experiments/mine/rows"
+    kept = Store(folder).keys
     project.run(target)
-    files = {file.name for file in (project.folder / "results/experiments/mine/rows").iterdir()}
-    assert kept < files and len(files) == 4
+    assert kept < Store(folder).keys and len(Store(folder).keys) == 4
     assert read_json(project.folder / target)[:3] == found
     mine.write_text(MINE.replace("20.0", "-1"))
     output = project.run("-n", target, expect=1)

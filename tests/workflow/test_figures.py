@@ -44,9 +44,7 @@ from geometry.profile import profile_at
 from rom.check import RomCheck
 from rom.full_model import FullModel
 from simulate.scene import Scene
-from simulate.scene.sobol import Sobol, indices
 from simulate.sweeps.dataset import save as save_sweep
-from simulate.sweeps.design_runs import FORMAT, save as save_table
 from simulate.sweeps.peak import Peak, along_order
 from simulate.sweeps.peak_results import asked, ends
 from workflow.figures import (
@@ -62,6 +60,8 @@ from workflow.figures import (
 from workflow.figures.annotations import speed_text
 from workflow.figures.response import Response
 from workflow.jobs.figure import origins, read
+from workflow.many.design_rows import FORMAT, save as save_table
+from workflow.many.sobol import Sobol, indices
 from workflow.paper.figures import (
     around,
     blade as blade_and_patches,
@@ -360,10 +360,11 @@ def design_rows():
     at_peak["reported"] = ("row", "order"), [[1, 0], [1, 0], [0, 0]]
     of_row = {"gap": [GAP] * 3, "largest_amplitude": [4e-5, 2e-5, 1e-6], "runs": [9] * 3}
     of_row |= {"largest_wear": [5e-6, 4e-6, 0.0], "not_ok": [0, 1, 0]}
+    of_row |= {"f1_Hz": [F1] * 3, "why": ["", "1 sensitive", ""]}
     given = {"liner.law.K": [0.3, 0.6, 1.2], "liner.law.kind": ["plastic"] * 3}
     variables = {name: ("row", of, {"long_name": "given"}) for name, of in given.items()}
     variables |= {name: ("row", of) for name, of in of_row.items()} | at_peak
-    return xr.Dataset(variables, {"row": [1, 2, 3], "order": [4, 6]}, {"f1_Hz": F1})
+    return xr.Dataset(variables, {"row": [1, 2, 3], "order": [4, 6]})
 
 
 def stressed(worst=None, at=(0, 0, 0), **fields):

@@ -13,7 +13,7 @@ from fem.solid import read_solid
 from simulate.errors.observables import numbers
 from simulate.errors.run import Case
 from simulate.marching import prepare
-from workflow.experiment.plan import cases
+from workflow.many.plan import cases
 from workflow.study import interface, interface_models, trade
 
 EXPERIMENT = ROOT / "workflow/experiments/interface.yaml"

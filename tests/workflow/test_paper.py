@@ -12,7 +12,7 @@ from simulate.scene import Scene
 from simulate.signals import LOBE_BLUR
 from simulate.sweeps.sweep import sweep
 from tests.simulate.scenes import scene
-from workflow.experiment.plan import cases
+from workflow.many.plan import cases
 from workflow.paper import grid, measure, numbers
 from workflow.paper.cost import cost
 from workflow.paper.laws import slopes_over_closed_form

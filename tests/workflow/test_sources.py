@@ -230,10 +230,10 @@ APART = {  # module of a job, and what no change of may run it again
     "workflow.jobs.check_rom": ("simulate/",),
     "workflow.jobs.march": (
         *("fem/", "simulate/sweeps/peak.py", "simulate/sweeps/peak_results.py"),
-        *("simulate/scene/sobol.py", "simulate/scene/design.py", "workflow/figures/"),
+        *("workflow/many/", "workflow/figures/"),
     ),
-    "workflow.jobs.sweep": ("fem/", "simulate/sweeps/peak_results.py", "simulate/scene/sobol.py"),
-    "workflow.paper.grid": ("workflow/paper/claims.py", "workflow/experiment/"),
+    "workflow.jobs.sweep": ("fem/", "simulate/sweeps/peak_results.py", "workflow/many/"),
+    "workflow.paper.grid": ("workflow/paper/claims.py", "workflow/many/"),
 }
 
 

@@ -16,9 +16,9 @@ from simulate.errors.run import Run
 from simulate.marching import Outcome, check_scene
 from simulate.marching.trend import Rounds
 from simulate.scene import Record
-from simulate.scene.design import value_at
 from simulate.sweeps.sweep import sweep
-from workflow.experiment.plan import cases
+from workflow.many.columns import value_at
+from workflow.many.plan import cases
 from workflow.study import trade, trade_table
 from workflow.study.trade import _errors as errors
 from workflow.study.trade_table import JUDGED, OBSERVABLES

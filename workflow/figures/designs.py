@@ -8,10 +8,10 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from simulate.scene import TRENDS
-from simulate.scene.sobol import indices
-from simulate.sweeps.design_runs import Rows
 from workflow.figures import lines, style
 from workflow.figures.units import MICRO, RPM_PER_HZ
+from workflow.many.design_rows import Rows
+from workflow.many.sobol import indices
 
 LARGEST, DEEPEST = "largest amplitude (µm)", "deepest wear (µm)"  # of all runs of a row
 VALUE = "value (in the unit of its key)"
@@ -22,11 +22,12 @@ WIDTH = 0.36  # of a bar
 def table(rows: xr.Dataset) -> pd.DataFrame:
     """A line for each row of a design: its changes, its extremes, its reported peaks.
 
-    In rpm, micrometres and newtons; a peak that is not reported has no numbers.
+    In rpm, micrometres and newtons; a peak that is not reported has no numbers. Where a row is
+    refused, or runs of it ended otherwise than ok, `why` says so.
     """
     reported = rows["reported"] > 0
     by_quantity = {
-        "critical speed (rpm)": RPM_PER_HZ * rows.attrs["f1_Hz"] * rows["critical_speed"],
+        "critical speed (rpm)": RPM_PER_HZ * rows["f1_Hz"] * rows["critical_speed"],
         "amplitude (µm)": MICRO * rows["gap"] * rows["peak"],
         "motion": reported.copy(data=np.array([*TRENDS, ""])[rows["trend"]]),
         "wear (µm)": MICRO * rows["wear"],
@@ -45,6 +46,8 @@ def table(rows: xr.Dataset) -> pd.DataFrame:
         "runs": rows["runs"],
         "runs not ok": rows["not_ok"],
     }
+    if (rows["why"] != "").any():
+        row_columns["why"] = rows["why"]
     return xr.Dataset(row_columns | by_order).to_dataframe()
 
 

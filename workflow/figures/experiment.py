@@ -6,13 +6,13 @@ from typing import Any
 from matplotlib.figure import Figure
 
 from geometry.base import UserError
-from simulate.scene.design import value_at
-from workflow.experiment.row import ExperimentRow
-from workflow.experiment.table import frame
 from workflow.figures import cells, lines
+from workflow.many.columns import value_at
+from workflow.many.row import ComputedRow
+from workflow.many.table import frame
 
 
-def draw(rows: Sequence[ExperimentRow], picture: Mapping[str, Any]) -> Figure:
+def draw(rows: Sequence[ComputedRow], picture: Mapping[str, Any]) -> Figure:
     """Draw the rows of an experiment; ``picture``: values of ``plan.Picture``, those that are set.
 
     Raises

@@ -11,7 +11,7 @@ from geometry.base import read_json
 from rom.model import Rom
 from simulate.scene import Scene
 from simulate.sweeps.dataset import Sweep
-from workflow.experiment.row import ExperimentRow
+from workflow.many.row import ComputedRow
 from workflow.paper import measure
 from workflow.paper.grid import growth, long_cases, of_rows, worst
 from workflow.paper.laws import slopes_over_closed_form
@@ -38,7 +38,7 @@ def of_scenes(
     two_five: Sweep,
     tilted: Sweep,
     tangential: Sweep,
-    grid: Sequence[ExperimentRow],
+    grid: Sequence[ComputedRow],
     growth: Mapping[str, Any],
     more: list[Numbers],
 ) -> Numbers:
@@ -55,9 +55,7 @@ def of_scenes(
     return numbers
 
 
-def worst_runs(
-    table: Sequence[ExperimentRow], growth: Mapping[str, Sequence[Any]]
-) -> dict[str, Any]:
+def worst_runs(table: Sequence[ComputedRow], growth: Mapping[str, Sequence[Any]]) -> dict[str, Any]:
     """Long runs of the worst coatings, and the peak of the bare casing."""
     (cases,) = growth.values()
     (rigid,) = [row["numbers"] for row in table if row["scene"] == "rigid"]
@@ -74,7 +72,7 @@ def editions(table: str, growth: str = "", model: str = "") -> dict[str, Numbers
     return {name: numbers | model_numbers for name, numbers in by_edition.items()}
 
 
-def numbers_of(rows: Sequence[ExperimentRow], long: Mapping[str, Any]) -> dict[str, Numbers]:
+def numbers_of(rows: Sequence[ComputedRow], long: Mapping[str, Any]) -> dict[str, Numbers]:
     """Numbers by edition and by part; ``long``: ``growth_of`` the same rows.
 
     Of the coatings they are those of their table, as far as they have peaks.
@@ -85,7 +83,7 @@ def numbers_of(rows: Sequence[ExperimentRow], long: Mapping[str, Any]) -> dict[s
     }
 
 
-def growth_of(table: Sequence[ExperimentRow]) -> dict[str, Any]:
+def growth_of(table: Sequence[ComputedRow]) -> dict[str, Any]:
     """Long runs of each edition with the table of E and K; None where a coating has no peak."""
     return {
         name: [
@@ -100,13 +98,13 @@ def growth_of(table: Sequence[ExperimentRow]) -> dict[str, Any]:
     }
 
 
-def _by_edition(rows: Sequence[ExperimentRow]) -> dict[str, list[ExperimentRow]]:
+def _by_edition(rows: Sequence[ComputedRow]) -> dict[str, list[ComputedRow]]:
     names = dict.fromkeys(row["names"][0] for row in rows)
     return {name: [row for row in rows if row["names"][0] == name] for name in names}
 
 
-def _long_rows(rows: Sequence[ExperimentRow]) -> dict[str, ExperimentRow]:
-    """Sequence[ExperimentRow] of the coatings whose growth is followed, by name."""
+def _long_rows(rows: Sequence[ComputedRow]) -> dict[str, ComputedRow]:
+    """Sequence[ComputedRow] of the coatings whose growth is followed, by name."""
     by_coating = {
         (row["numbers"]["E"], row["numbers"]["K"]): row for row in rows if row["scene"] == "grid"
     }
@@ -115,7 +113,7 @@ def _long_rows(rows: Sequence[ExperimentRow]) -> dict[str, ExperimentRow]:
     }
 
 
-def _parts(rows: Sequence[ExperimentRow]) -> Numbers:
+def _parts(rows: Sequence[ComputedRow]) -> Numbers:
     """Numbers by part; of the coatings those of their table."""
     numbers = {
         row["scene"]: row["numbers"] for row in rows if row["scene"] not in ("grid", "rigid")
@@ -124,7 +122,7 @@ def _parts(rows: Sequence[ExperimentRow]) -> Numbers:
     return numbers | ({"grid": measure.table(coatings)} if worst(coatings) else {})
 
 
-def _long(rows: Sequence[ExperimentRow], cases: Sequence[Mapping[str, Any]] | None) -> Numbers:
+def _long(rows: Sequence[ComputedRow], cases: Sequence[Mapping[str, Any]] | None) -> Numbers:
     """Growth, and the peak of the bare casing, where there is one."""
     bare = [row["numbers"] for row in rows if row["scene"] == "rigid"]
     return {"long": measure.long_run(bare[0], cases)} if bare and cases is not None else {}

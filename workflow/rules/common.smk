@@ -21,8 +21,8 @@ from geometry.base import (
     yaml_file,
 )
 from rom.speeds import basis_speeds, check_speeds
-from simulate.scene.design import Design, refuse
-from simulate.scene import Scene, fault_of_blade
+from workflow.many.design import Design
+from simulate.scene import Scene, fault_of_blade, own_laws
 from simulate.scene.casing import CASING
 from workflow.at_work import ANOTHER, hold, not_writable
 from workflow.config import read_config
@@ -31,7 +31,7 @@ from workflow.summary import last_words
 ROOT = Path(workflow.basedir)
 SUMMARY = "results/summary.json"
 SHOWN_MODE = 3  # the highest natural mode whose motion pages show
-DESIGNS = {}  # number of rows, paths of tables, and hashes of laws, of the designs read, by scene
+DESIGNS = {}  # those read, by scene
 
 
 def without_sources(record):
@@ -128,7 +128,8 @@ def scene_settings(name):
         raise WorkflowError(
             f"{scene_file(name)}: blade: {scene.blade!r}: no workflow/blades/{scene.blade}.yaml"
         )
-    require_blade(name, scene)
+    if fault := fault_of_blade(scene, blade_settings(scene.blade)):
+        raise WorkflowError(f"{scene_file(name)}: {fault}")
     if scene.start:
         require_start(name, scene.start.scene, scene.blade)
     without_mesh = {
@@ -149,10 +150,12 @@ def scene_settings(name):
         )
     if scene.design:
         require_shown(scene_file(name), "design", scene.design)
-        design = read_or_fail(Design.of, scene, Path(scene_file(name)))
-        laws = (of.liner.law.code_files.items() for of in design.scenes)
-        DESIGNS[name] = len(design.scenes), design.files, dict(chain(*laws))
-        require_blade(name, *design.scenes, table=design.path)
+        DESIGNS[name] = design = read_or_fail(Design.of, scene, Path(scene_file(name)))
+        for blade in design.blades:
+            if blade not in BLADE_FILES:
+                raise WorkflowError(
+                    f"{design.path}: column blade: {blade!r}: no workflow/blades/{blade}.yaml"
+                )
     return scene
 
 
@@ -162,17 +165,6 @@ def refused_at_rest(name):
         f"workflow/config.yaml: explore: {name!r}: its page has one gap for all speeds: allowed are "
         f"scenes with `clearance: {{at: running}}`, without a line or a table of the shift"
     )
-
-
-def require_blade(name, *scenes, table=None):
-    """Refuse what the blade alone does not allow, of a scene or of the rows of its table."""
-    blade = blade_settings(scenes[0].blade)
-    faults = [
-        (row, fault) for row, s in enumerate(scenes, 1) if (fault := fault_of_blade(s, blade))
-    ]
-    if faults and table is None:
-        raise WorkflowError(f"{scene_file(name)}: {faults[0][1]}")
-    read_or_fail(refuse, table, faults)
 
 
 def require_start(name, before, blade):
@@ -329,11 +321,17 @@ def contents_of_blade(wildcards):
 
 
 def contents_of_scene(wildcards):
-    """Hashes of the files that runs of the scene read: of its design, and of laws of one's own."""
+    """Hashes of the files that runs of the scene read: of its design, and of laws of one's own.
+
+    Rows of a design may have any of the laws: those whose law is as it was are not marched again.
+    """
     scene = SCENES[wildcards.scene]
-    of_design = DESIGNS[wildcards.scene][1:] if scene.design else ((), scene.liner.law.code_files)
-    tables, laws = of_design
-    return Told(read_or_fail(hashes, tables) | dict(zip(here(laws), laws.values())))
+    laws = scene.liner.law.code_files
+    own = dict(zip(here(laws), laws.values()))
+    if scene.design is None:
+        return Told(own)
+    files = *DESIGNS[wildcards.scene].files, *sorted(map(str, own_laws.FOLDER.glob("*.py")))
+    return Told(own | read_or_fail(hashes, files))
 
 
 def blade_file(wildcards):
@@ -345,7 +343,7 @@ def blocks(wildcards):
     scene = SCENES[wildcards.scene]
     if scene.speeds.in_turn:
         return range(1)
-    most = DESIGNS[wildcards.scene][0] if scene.design else scene.speeds.count
+    most = DESIGNS[wildcards.scene].count if scene.design else scene.speeds.count
     return range(min(CONFIG.blocks, most))
 
 
@@ -411,12 +409,39 @@ def of_designs():
     ]
 
 
+def design_of(wildcards):
+    """The design of a scene."""
+    if SCENES[wildcards.scene].design is None:
+        raise WorkflowError(f"{scene_file(wildcards.scene)}: design: missing: it is no table")
+    return DESIGNS[wildcards.scene]
+
+
 def table_of_design(wildcards):
     """The CSV file of a scene's design."""
-    scene = SCENES[wildcards.scene]
-    if scene.design is None:
-        raise WorkflowError(f"{scene_file(wildcards.scene)}: design: missing: it is no table")
-    return str(Path(scene_file(wildcards.scene)).parent / scene.design)
+    return str(design_of(wildcards).path)
+
+
+def rows_of_block(wildcards):
+    """Number of the rows of a block of a design."""
+    return len(range(int(wildcards.block), design_of(wildcards).count, len(blocks(wildcards))))
+
+
+def of_other_blades(pattern):
+    """A file of each blade that only some rows of a design have."""
+
+    def files(wildcards):
+        directions = SCENES[wildcards.scene].directions
+        _, *others = design_of(wildcards).blades
+        return [pattern.format(blade=blade, directions=directions) for blade in others]
+
+    return files
+
+
+def rom_of_row(wildcards):
+    """The reduced model of a row of a design."""
+    blade = read_or_fail(design_of(wildcards).require_row, int(wildcards.row)).blade
+    own = blade == wildcards.blade
+    return rom_of_scene(wildcards) if own else f"results/{blade}/rom-{SCENES[wildcards.scene].directions}.nc"
 
 
 def delivered(wildcards):

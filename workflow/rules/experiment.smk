@@ -16,7 +16,7 @@ rule experiment_block:
     benchmark:
         "results/experiments/{experiment}/benchmarks/block-{block}.tsv"
     params:
-        run="workflow.experiment.engine:march_block",
+        run="workflow.jobs.many:experiment",
         contents=contents_of_experiment,
         given=plan_of_experiment,
         block="{block}",

@@ -1,6 +1,6 @@
 # Functions of the rules of figures, experiments, studies and the paper.
 # They stand apart from the rules, whose files are then only rules. `=name` in numbers.yaml calls one.
-from workflow.experiment.plan import Experiment, cases
+from workflow.many.plan import Experiment, cases
 from workflow.figures import table
 
 FIGURES = table.Figures(
@@ -71,7 +71,7 @@ def code_of_experiment(wildcards):
     """The engine, and the functions of all rows."""
     found = cases_of(wildcards.experiment)
     functions = {of for case in found for of in (case.function, case.model) if of}
-    return code_of("workflow.experiment.engine", *sorted(functions))(wildcards)
+    return code_of("workflow.jobs.many", *sorted(functions))(wildcards)
 
 
 def contents_of_experiment(wildcards):

@@ -91,42 +91,46 @@ rule sweep:
         "../scripts/job.py"
 
 
-# Rows that are done are in design-parts, which Snakemake does not know: a block that is started
-# anew, by a change or another number of blocks, marches only rows that are not there.
+# Rows that are done are in the folder `rows`, which Snakemake does not know: a block that is started anew, by a change or another
+# number of blocks, marches only rows that are not there.
 rule design_block:
     input:
-        code=code_of("workflow.jobs.design"),
+        code=code_of("workflow.jobs.many", "workflow.many.design_rows"),
         rom=rom_of_scene,
         check=ancient(check_of_scene),
         settings=settings_of_scene,
         table=table_of_design,
+        models=of_other_blades("results/{blade}/rom-{directions}.nc"),
+        checks=ancient(of_other_blades("results/{blade}/rom-check-{directions}.nc")),
     output:
-        block="results/{blade}/{scene}/design-block-{block}.nc",
+        json="results/{blade}/{scene}/design-block-{block}.json",
     log:
         "results/{blade}/{scene}/logs/design-block-{block}.log",
     benchmark:
         "results/{blade}/{scene}/benchmarks/design-block-{block}.tsv"
     params:
-        run="workflow.jobs.design:block",
+        run="workflow.jobs.many:design",
         contents=contents_of_scene,
         scene=settings_told,
         file=lambda wildcards: scene_file(wildcards.scene),
-        parts="results/{blade}/{scene}/design-parts",
+        folder="results/{blade}/{scene}/rows",
+        block="{block}",
         blocks=lambda wildcards: len(blocks(wildcards)),
+        of_rows=rows_of_block,
     message:
-        "Scene {wildcards.scene}, block {wildcards.block} of its design"
+        "Scene {wildcards.scene}, block {wildcards.block} of its design, {params.of_rows} rows"
     script:
         "../scripts/job.py"
 
 
 rule design:
     input:
-        code=code_of("workflow.jobs.design"),
+        code=code_of("workflow.jobs.many"),
         rom=rom_of_scene,
         settings=settings_of_scene,
         table=table_of_design,
         blocks=lambda wildcards: expand(
-            "results/{{blade}}/{{scene}}/design-block-{block}.nc", block=blocks(wildcards)
+            "results/{{blade}}/{{scene}}/design-block-{block}.json", block=blocks(wildcards)
         ),
     output:
         runs="results/{blade}/{scene}/design-runs.nc",
@@ -136,10 +140,11 @@ rule design:
     benchmark:
         "results/{blade}/{scene}/benchmarks/design.tsv"
     params:
-        run="workflow.jobs.design:tables",
+        run="workflow.jobs.many:tables",
         contents=contents_of_scene,
         scene=settings_told,
         file=lambda wildcards: scene_file(wildcards.scene),
+        folder="results/{blade}/{scene}/rows",
     message:
         "Design of scene {wildcards.scene}: tables of its runs and rows"
     script:
@@ -148,8 +153,8 @@ rule design:
 
 rule design_row:
     input:
-        code=code_of("workflow.jobs.design"),
-        rom=rom_of_scene,
+        code=code_of("workflow.jobs.many"),
+        rom=rom_of_row,
         check=ancient(check_of_scene),
         settings=settings_of_scene,
         table=table_of_design,
@@ -160,7 +165,7 @@ rule design_row:
     benchmark:
         "results/{blade}/{scene}/benchmarks/row-{row}.tsv"
     params:
-        run="workflow.jobs.design:row",
+        run="workflow.jobs.many:row",
         contents=contents_of_scene,
         scene=settings_told,
         file=lambda wildcards: scene_file(wildcards.scene),

@@ -4,8 +4,8 @@ STUDIES = {
     "study_rotor37": "results/experiments/frequencies/table.md",
     "stability": [
         "results/figures/stability.png",
-        "results/figures/stability-matrix.json",
-        "results/figures/stability-sweeps.json",
+        "results/experiments/extremes/table.json",
+        "results/experiments/extreme-sweeps/table.json",
     ],
     "trade": "results/experiments/trade/table.md",
 }

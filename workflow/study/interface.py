@@ -5,9 +5,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from workflow import markdown
-from workflow.experiment.row import ExperimentRow
+from workflow.many.row import ComputedRow
 
-type Rows = Sequence[ExperimentRow]
+type Rows = Sequence[ComputedRow]
 
 BARS = {  # largest changes allowed from row to row, by observable
     "3.51 to 2.48 mm": {"wear": 0.015, "amplitude": 0.003, "Omega_c": 0.0005},

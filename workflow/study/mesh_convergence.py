@@ -22,8 +22,8 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import minimize_scalar
 
 from workflow import markdown
-from workflow.experiment.row import ExperimentRow
 from workflow.figures import style
+from workflow.many.row import ComputedRow
 
 ORDERS = (0.5, 4.0)  # range of the order; at most 4 for frequencies of quadratic elements
 SAFETY = 1.25  # factor of Celik and others, for three sizes and an observed order
@@ -31,7 +31,7 @@ OWN = "own size"  # row of the blade itself
 MARKERS = [*"os^vD<>pPX"]  # one for each mode
 
 
-def numbers(rows: Sequence[ExperimentRow]) -> dict[str, Any]:
+def numbers(rows: Sequence[ComputedRow]) -> dict[str, Any]:
     """Limits, and the errors of every size against them.
 
     ``rows``: of an experiment with ``frequencies.numbers``, from coarse to fine; that of the
@@ -87,7 +87,7 @@ def _against_limit(sizes: list[float], values: NDArray[np.float64], order: float
     }
 
 
-def table(rows: Sequence[ExperimentRow]) -> str:
+def table(rows: Sequence[ComputedRow]) -> str:
     """Markdown: sizes, and a table with the errors of the blade's own size for each mode."""
     study = numbers(rows)
     sizes, nodes, index = study["element_size_mm"], study["nodes"], study["own"]
@@ -120,7 +120,7 @@ def _error(quantity: Mapping[str, Any], m: int, index: int) -> str:
 
 
 @style.styled
-def draw(study: list[ExperimentRow]) -> Figure:
+def draw(study: list[ComputedRow]) -> Figure:
     """Errors against the limit, one line for each mode at rest and one for the tip deflection.
 
     ``study``: rows of the experiment.

@@ -26,7 +26,7 @@ from simulate.errors.observables import (
 from simulate.errors.run import Run
 from simulate.signals import on_rods
 from simulate.sweeps.peak import along_order, peak_of
-from workflow.experiment.engine import Marched
+from workflow.many.engine import Marched
 from workflow.markdown import rounded
 
 FIRST_ROUNDS = 5  # of the history

@@ -6,7 +6,7 @@ from typing import Any
 
 import pandas as pd
 
-from workflow.experiment.row import ExperimentRow
+from workflow.many.row import ComputedRow
 from workflow.markdown import cell, percent, table, two_digits
 
 OBSERVABLES = ["amplitude", "Omega_c", "wear", "lobes", "force", "history"]  # of the tables
@@ -24,7 +24,7 @@ COUNTED = "lobes"  # given as a number, all others in per cent
 HEADS = [name.replace("_", " ") for name in OBSERVABLES]
 
 
-def group_rows(rows: Sequence[ExperimentRow], *groups: str) -> pd.DataFrame:
+def group_rows(rows: Sequence[ComputedRow], *groups: str) -> pd.DataFrame:
     """Rows of groups on the scenes, with their errors in columns, nan where not known.
 
     That of Omega_c at resonance is from the sweep over the peak. `worst`: largest of those in
@@ -41,7 +41,7 @@ def group_rows(rows: Sequence[ExperimentRow], *groups: str) -> pd.DataFrame:
     return frame.join(errors_by_name)[frame["scene"].isin(SCENES) & errors.notna()]
 
 
-def uncertainty(rows: Sequence[ExperimentRow]) -> pd.DataFrame:
+def uncertainty(rows: Sequence[ComputedRow]) -> pd.DataFrame:
     """Uncertainty of the reference by scene: change by one level coarser or another scheme.
 
     `worst` is inf where neither is known.
@@ -52,7 +52,7 @@ def uncertainty(rows: Sequence[ExperimentRow]) -> pd.DataFrame:
     return changes.assign(worst=worst).reindex(SCENES).fillna({"worst": inf})
 
 
-def levels(rows: Sequence[ExperimentRow]) -> Iterator[dict[str, Any]]:
+def levels(rows: Sequence[ComputedRow]) -> Iterator[dict[str, Any]]:
     """For each level the cheapest setting that meets it on all scenes, or the most accurate.
 
     With its rows (`of`), its largest error, and its time for all of `paper`, CPU min.
@@ -68,7 +68,7 @@ def levels(rows: Sequence[ExperimentRow]) -> Iterator[dict[str, Any]]:
         yield about | {"of": tried[tried["row"] == best]} | settings.loc[best].to_dict()
 
 
-def by_level(rows: Sequence[ExperimentRow]) -> str:
+def by_level(rows: Sequence[ComputedRow]) -> str:
     """Settings, largest error of each observable over all scenes, time per run and of `paper`.
 
     Errors are those of mesh, patches, natural modes, strips, step and rods together.
@@ -90,7 +90,7 @@ def by_level(rows: Sequence[ExperimentRow]) -> str:
     )
 
 
-def requirements(rows: Sequence[ExperimentRow]) -> str:
+def requirements(rows: Sequence[ComputedRow]) -> str:
     """Changes of each scene without a feature, and the ratio of CPU times."""
     times = {(row["scene"], row["row"]): row["cpu_s"] for row in rows}
     lines = [
@@ -108,7 +108,7 @@ def requirements(rows: Sequence[ExperimentRow]) -> str:
     )
 
 
-def fewer_rounds(rows: Sequence[ExperimentRow]) -> str:
+def fewer_rounds(rows: Sequence[ComputedRow]) -> str:
     """Error of the amplitude and CPU time of a run, by revolutions before those of the spectrum."""
     lines = []
     for name, runs in group_rows(rows, "rounds").set_index("scene").groupby("row", sort=False):
@@ -118,7 +118,7 @@ def fewer_rounds(rows: Sequence[ExperimentRow]) -> str:
     return table(["revolutions before", *SCENES, "CPU s per run"], lines)
 
 
-def fewer_speeds(rows: Sequence[ExperimentRow]) -> str:
+def fewer_speeds(rows: Sequence[ComputedRow]) -> str:
     """Errors of the peaks and CPU times of full sweeps, and of coarse ones refined around peaks."""
     lines = [
         [

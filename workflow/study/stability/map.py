@@ -22,7 +22,7 @@ from simulate.marching import Setup, central_difference, strip_stiffness
 from simulate.marching.kernel import RUNNING, Recorded, at_start, march_round
 from simulate.marching.modal import padded_rows
 from simulate.scene import Scene
-from workflow.experiment.engine import Marched
+from workflow.many.engine import Marched
 from workflow.study.trade import amplitude
 
 SAMPLES = 64  # of a run

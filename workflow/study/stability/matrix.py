@@ -16,7 +16,7 @@ of the two does not count as an error of the run.
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,7 +25,7 @@ from geometry.base import SettingsError, UserError, check_settings
 from rom.model import Rom
 from simulate.errors.checked import checked
 from simulate.errors.neighbour import Neighbour
-from simulate.errors.neighbours import judged
+from simulate.errors.neighbours import judged as judged_run
 from simulate.errors.observables import Observables, observables, relative_differences
 from simulate.errors.resolution import check_resolution
 from simulate.errors.run import Case as Marched, Run
@@ -38,9 +38,10 @@ from simulate.marching import (
     prepare,
 )
 from simulate.scene import CentralDifference, PiecewiseExact, Scene
+from workflow.many.row import ComputedRow
 from workflow.study.stability.cases import EXACT, EXPLICIT, SAMPLES, Case, draw
 
-CASES = 1000
+KINDS = ("plain", "default", "checked")  # verdicts on a case
 FINE = 0.1  # largest step of the references over the limit
 FINER, FINEST = 8, 5000  # least and largest ratio of the case's step to that of the references
 # Bounds of the cost of a case
@@ -156,6 +157,11 @@ class End:
     spread: dict[str, float] = field(default_factory=dict)  # of the reference
     accurate: bool | None = None  # within a tenth of the reference; None without one
 
+    @classmethod
+    def of(cls, plain: Mapping[str, Any]) -> Self:
+        """From its plain values."""
+        return cls(**{**plain, **{name: Verdict(**plain[name]) for name in KINDS}})
+
 
 def judge_case(case: Case, rom: Rom) -> End:
     """March a case and its checks."""
@@ -164,12 +170,12 @@ def judge_case(case: Case, rom: Rom) -> End:
     except (SettingsError, SceneError) as error:
         refused = _refused(error)
         return End(refused, refused, refused, str(error))
-    run = judged(of.case.march())
+    run = judged_run(of.case.march())
     outcome = run.outcome
     exact = references(of) if outcome.status in TO_THE_END else ()
     (by_default,), _ = checked([run], run.scene.checked_share)
     alone, with_all = _refusal(run, halving=False), _refusal(run, halving=True)
-    best = judged(replace(run, scene=run.scene.but(twin=True, halving=True)))
+    best = judged_run(replace(run, scene=run.scene.but(twin=True, halving=True)))
     return End(
         alone or _verdict(run, exact),
         alone or _verdict(by_default, exact),
@@ -235,22 +241,17 @@ def _closest_between(
     return one + min(max(share, 0.0), 1.0) * (other - one)
 
 
-def numbers(files: Any) -> dict[str, Any]:
-    """All cases on the reduced model ``files.rom``: counts by outcome, and each case."""
-    rom = Rom.load(files.rom)
-    ends = [judge_case(draw(number, len(rom.xi)), rom) for number in range(CASES)]
-    return counts(ends) | {"ends": [asdict(end) for end in ends]}
+def judged(number: int, rom: Rom) -> dict[str, Any]:
+    """The end of case ``number``, from 1, of the study."""
+    return asdict(judge_case(draw(number - 1, len(rom.xi)), rom))
 
 
-def counts(ends: Iterable[End]) -> dict[str, Any]:
+def counts(rows: Iterable[ComputedRow]) -> dict[str, Any]:
     """Counts of the cases, as plain runs, by default and with all checks; cost of the default."""
-    ends = list(ends)
+    ends = [End.of(row["numbers"]) for row in rows]
     return {
         "cases": len(ends),
-        **{
-            name: _counts([(getattr(end, name), end) for end in ends])
-            for name in ("plain", "default", "checked")
-        },
+        **{name: _counts([(getattr(end, name), end) for end in ends]) for name in KINDS},
         "cost": sum(end.cost * end.steps for end in ends) / max(sum(end.steps for end in ends), 1),
         "checks": sum(end.cost > 0 for end in ends),
     }

@@ -5,12 +5,9 @@ where there is none, above a hundredth of the gap, are compared with references 
 (``matrix``). Silently wrong is an amplitude off by over a tenth in a run that is `ok`.
 """
 
-from collections.abc import Iterator
 from dataclasses import replace
-from itertools import count, islice
 from typing import Any
 
-from geometry.base import SettingsError
 from rom.model import Rom
 from simulate.errors.checked import checked
 from simulate.errors.observables import LEAST, numbers as numbers_of
@@ -22,39 +19,23 @@ from simulate.sweeps.peak_results import asked
 from workflow.study.stability.cases import Case, draw
 from workflow.study.stability.matrix import Ready, ready, references
 
-SWEEPS = 100
 MIDDLE, SPEEDS = 0.31, {"first": 0.24, "last": 0.38, "count": 12}  # over f1(0)
 SPECTRUM, MOST = 4, 8  # revolutions of the spectrum, and of a run
 RESPONSE = 0.01  # gaps: peaks below are none
 RECORD = {"samples_per_round": 64, "spectrum_rounds": SPECTRUM}
 
 
-def swept(rom: Rom) -> Iterator[dict[str, Any]]:
-    """The drawn scenes that can be swept: number, peaks, and the share of steps of checks."""
-    for number in count():
-        case = draw(number, len(rom.xi))
-        try:
-            made = _whole(case, rom)
-            if made:
-                yield {"number": number} | _judged(made, rom)
-        except (SettingsError, SceneError):
-            continue
+def judged(number: int, rom: Rom) -> dict[str, Any]:
+    """Peaks of the sweep of case ``number``, from 1, beside their references.
 
+    And the steps of its checks over those of its runs.
 
-def _whole(case: Case, rom: Rom) -> Ready | None:
-    """The case as a sweep; None where revolutions are too costly."""
-    at_middle = replace(case, scene=case.scene | {"speeds": {"over_f1": [MIDDLE]}, "rounds": MOST})
-    of = ready(at_middle, rom)
-    scene, rounds = of.case.scene, of.case.scene.rounds
-    if rounds < SPECTRUM or of.case.setup.steps != of.case.steps_of_a_turn:
-        return None
-    scene = scene.but(speeds={"over_f1": SPEEDS}, record=RECORD | {"history": None})
-    check_sweep(scene, rom)
-    return Ready(replace(of.case, scene=scene), of.finer)
-
-
-def _judged(of: Ready, rom: Rom) -> dict[str, Any]:
-    """Peaks of a sweep beside their references, and the steps of its checks over those of runs."""
+    Raises
+    ------
+    UserError
+        When the case is refused, or cannot be swept.
+    """
+    of = _whole(draw(number - 1, len(rom.xi)), rom)
     scene = of.case.scene
     runs = at_speeds(scene, rom, scene.speeds.omega(rom.f1))
     found, _ = checked(runs, scene.checked_share)
@@ -66,6 +47,24 @@ def _judged(of: Ready, rom: Rom) -> dict[str, Any]:
     ]
     share = sum(run.steps for run in found) / sum(run.steps for run in runs) - 1
     return {"peaks": [peak for peak in beside if peak["error"] is not None], "share": share}
+
+
+def _whole(case: Case, rom: Rom) -> Ready:
+    """The case as a sweep.
+
+    Raises
+    ------
+    UserError
+        When it is refused, or its revolutions are too costly.
+    """
+    at_middle = replace(case, scene=case.scene | {"speeds": {"over_f1": [MIDDLE]}, "rounds": MOST})
+    of = ready(at_middle, rom)
+    scene, rounds = of.case.scene, of.case.scene.rounds
+    if rounds < SPECTRUM or of.case.setup.steps != of.case.steps_of_a_turn:
+        raise SceneError("a revolution is too costly", key="rounds")
+    scene = scene.but(speeds={"over_f1": SPEEDS}, record=RECORD | {"history": None})
+    check_sweep(scene, rom)
+    return Ready(replace(of.case, scene=scene), of.finer)
 
 
 def _beside(of: Ready, run: Run, found: Run, k: int | None) -> dict[str, Any]:
@@ -82,9 +81,3 @@ def _beside(of: Ready, run: Run, found: Run, k: int | None) -> dict[str, Any]:
         return told
     off = min(abs(own - at) for at in exact) / max(own, *exact, LEAST["spectrum"])
     return told | {"error": off, "silent": status == "ok" and off > STATED}
-
-
-def numbers(files: Any) -> list[dict[str, Any]]:
-    """The drawn sweeps on the reduced model ``files.rom``."""
-    rom = Rom.load(files.rom)
-    return [*islice(swept(rom), SWEEPS)]

@@ -9,8 +9,9 @@ import pandas as pd
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from workflow.experiment.row import ExperimentRow
 from workflow.figures import lines, units
+from workflow.many.row import ComputedRow
+from workflow.study.stability.matrix import counts
 
 KINDS = {
     "As plain runs (`check: 0`)": "plain",
@@ -26,7 +27,7 @@ ENGAGED = {
 }
 
 
-def limits(rows: Sequence[ExperimentRow]) -> str:
+def limits(rows: Sequence[ComputedRow]) -> str:
     """Agreement of the predicted limit of central differences with failing runs."""
     rows = engaged(rows)
     off = max(abs(row["failed"] / row["predicted"] - 1) for row in rows)
@@ -38,15 +39,17 @@ def limits(rows: Sequence[ExperimentRow]) -> str:
     )
 
 
-def extremes(study: Mapping[str, Any]) -> str:
+def extremes(rows: Sequence[ComputedRow]) -> str:
     """Outcomes of the cases with extreme parameters: plain, by default and with all checks."""
+    study = counts(rows)
     kinds = [f"{words}: {_outcomes(study[name])}" for words, name in KINDS.items()]
     cost = f"by default {study['checks']} runs are checked, in {study['cost']:.0%} more steps"
     return "\n\n".join([f"{study['cases']} cases; {cost}.", *kinds])
 
 
-def sweeps(study: Sequence[Mapping[str, Any]]) -> str:
+def sweeps(rows: Sequence[ComputedRow]) -> str:
     """Outcomes of drawn sweeps with the default share of checks."""
+    study = [row["numbers"] for row in rows if row["numbers"]]
     peaks = [peak for sweep in study for peak in sweep["peaks"]]
     return (
         f"{len(study)} sweeps of 12 speeds, {len(peaks)} peaks that have a reference: "
@@ -81,12 +84,12 @@ def _listed(whys: Mapping[str, int]) -> str:
     return ", ".join(f"{count} {name}" for name, count in sorted(whys.items()))
 
 
-def engaged(rows: Sequence[ExperimentRow]) -> list[Mapping[str, float]]:
+def engaged(rows: Sequence[ComputedRow]) -> list[Mapping[str, float]]:
     """Numbers of the always engaged elastic liners, among the rows of the map."""
     return [row["numbers"] for row in rows if row["scene"] == "engaged"]
 
 
-def intermittent(rows: Sequence[ExperimentRow]) -> list[Mapping[str, float | None]]:
+def intermittent(rows: Sequence[ComputedRow]) -> list[Mapping[str, float | None]]:
     """For each plastic liner the limit, and the step of each scheme that reaches each error, s."""
     compared = pd.json_normalize([row for row in rows if "wear" in row["numbers"]])
     found = []
@@ -110,7 +113,7 @@ def passes(h: NDArray[np.float64], error: NDArray[np.float64], level: float) -> 
     return float(np.exp(np.interp(np.log(level), np.log(error[around]), np.log(h[around]))))
 
 
-def draw(study: list[ExperimentRow]) -> Figure:
+def draw(study: list[ComputedRow]) -> Figure:
     """Left: an always engaged elastic liner. Right: a plastic liner, steps by error of wear."""
     by_error = {
         f"{scheme} wear {error}": f"{name}: error of wear {words}"

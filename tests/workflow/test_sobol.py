@@ -9,9 +9,10 @@ from refused import refused
 from scenes import EXACT, scene
 
 from geometry.base import SettingsError
-from simulate.scene.design import Design
-from simulate.scene.sobol import Sobol, SobolError, indices
-from simulate.sweeps.design_runs import Engine, load, march_block, row_table, save
+from workflow.many.design import Design
+from workflow.many.design_rows import load, save, tables
+from workflow.many.engine import march_block
+from workflow.many.sobol import Sobol, SobolError, indices
 
 FACTORS = {
     "gap": {
@@ -73,14 +74,15 @@ def design(tmp_path) -> Design:
 
 def test_rows_are_the_scene_times_its_factors(design):
     gap, damping = design.sobol.points().T
-    assert len(design.scenes) == 4 * (2 + 2)
+    scenes = [row.scene for row in design.rows()]
+    assert len(scenes) == design.count == 4 * (2 + 2)
     found = [
         (
             of.clearance.leading_edge_over_span,
             of.clearance.trailing_edge_over_span,
             of.damping_ratio,
         )
-        for of in design.scenes
+        for of in scenes
     ]
     expected = np.column_stack([1.5e-4 * gap, 4.3e-4 * gap, 0.005 * damping])
     np.testing.assert_allclose(found, expected, rtol=1e-12)
@@ -88,8 +90,10 @@ def test_rows_are_the_scene_times_its_factors(design):
 
 
 def test_a_marched_design_has_indices_from_its_file(design, coarse_rom, tmp_path):
-    engine = Engine.of(design, coarse_rom)
-    save(row_table(engine, march_block(engine, tmp_path / "parts")), tmp_path / "rows.nc")
+    models, folder = {"coarse": coarse_rom}, tmp_path / "rows"
+    entries = march_block(design.rows(), folder, design.count, models=models)
+    _, rows = tables(design, coarse_rom, [entries], folder)
+    save(rows, tmp_path / "rows.nc")
     found = indices(load(tmp_path / "rows.nc"), ["largest_wear"])
     assert found.factors == ["gap", "damping"]
     assert found.total[0, 0] > 10 * found.total[0, 1]  # one round: damping does little
@@ -107,7 +111,7 @@ def wrong(keys=("rounds",), between=(1, 2)):
         ({"factors": {"gap": FACTORS["gap"]}}, "factors"),
         ({"factors": wrong(keys=["casing.harmonics"])}, "factors.casing.harmonics"),
         ({"factors": wrong(keys=["rouns"])}, "factors.rouns"),
-        ({"factors": wrong(keys=["blade"])}, "column"),
+        ({"factors": wrong(keys=["blade"])}, "factors.blade"),
         ({"factors": wrong(between=[2, 1])}, "factors.between"),
         ({"sample": 4}, "sample"),
     ],

@@ -29,7 +29,8 @@ from geometry.base import (
     yaml_file,
 )
 from simulate.scene import Scene
-from simulate.scene.design import placed, value_at
+from workflow.many.columns import placed, value_at
+from workflow.many.row import Row
 
 SCENES = Path("workflow/scenes")
 OF_A_ROW = ("times", "directions", "model")  # its keys that are none of a scene
@@ -40,14 +41,6 @@ REFUSED = (
     "start",
     "record.gauges",
 )  # keys that need other files than the model
-FILES = {  # of a model, by names that functions of numbers have for them
-    "rom": "results/{blade}/rom-{directions}.nc",
-    "mesh": "results/{blade}/blade.msh",
-    "matrices": "results/{blade}/matrices.h5",
-    "full": "results/{blade}/full-model.nc",
-    "check": "results/{blade}/rom-check-{directions}.nc",
-    "basis": "results/{blade}/basis-{directions}.h5",
-}
 
 type Changes = dict[str, Any]
 type Rows = dict[str, Changes]  # by name
@@ -63,12 +56,15 @@ class Group(Settings):
     each: list[str] = Field(
         default=[], description="Instead of rows: names of `lists`; every combination is a row"
     )
+    drawn: int = Field(
+        default=0, ge=0, description="Instead of rows: how many without changes, told by `number`"
+    )
     against: str | None = Field(default=None, description="Row to compare the others with")
 
     def combined(self, place: Keys, lists: Mapping[str, Rows]) -> Iterator[tuple[list[Keys], list]]:
         """Places, in a file that has the group ``place`` one, and changes of each row."""
         choices = [(("lists", name), lists[name]) for name in self.each] or [
-            ((*place, "rows"), self.rows)
+            ((*place, "rows"), self.rows or {str(row + 1): {} for row in range(self.drawn)})
         ]
         for items in product(*([(where, *row) for row in rows.items()] for where, rows in choices)):
             yield [(*where, name) for where, name, _ in items], [changes for *_, changes in items]
@@ -108,7 +104,7 @@ class Experiment(SettingsFile, Group):
     groups: list[Group] = Field(default=[], description="Instead of rows and each")
     numbers: str | dict[str, str] = Field(
         default="peaks",
-        description="Function of a row: one of workflow/experiment/numbers.py, or module:function "
+        description="Function of a row: one of workflow/many/numbers.py, or module:function "
         "in workflow/; or one for each label",
     )
     needs: list[Literal["mesh", "matrices", "full", "check", "basis"]] = Field(
@@ -144,36 +140,13 @@ class Experiment(SettingsFile, Group):
             require_function(function_named(name), "numbers")
 
 
-class PlannedRow(Settings):
-    """One row on one scene."""
-
-    group: str
-    label: str  # of the scene
-    names: tuple[str, ...]  # of the row, from each list of the group
-    against: str | None  # row of the same scene
-    scene: Scene
-    directions: str  # interface directions of its model
-    model: str | None  # function that makes another model of it, as module:function
-    function: str  # of its numbers, as module:function
-    needs: tuple[str, ...]  # of ``FILES``, the reduced model where it is run
-
-    @property
-    def row(self) -> str:
-        """Name of the row."""
-        return ", ".join(self.names)
-
-    def file(self, name: str) -> str:
-        """File of its model with a name of ``FILES``."""
-        return FILES[name].format(blade=self.scene.blade, directions=self.directions)
-
-
 def function_named(name: str) -> str:
     """A function of numbers as module:function.
 
     >>> function_named("peaks"), function_named("paper.measure:coating")
-    ('workflow.experiment.numbers:peaks', 'workflow.paper.measure:coating')
+    ('workflow.many.numbers:peaks', 'workflow.paper.measure:coating')
     """
-    return f"workflow.{name if ':' in name else f'experiment.numbers:{name}'}"
+    return f"workflow.{name if ':' in name else f'many.numbers:{name}'}"
 
 
 def require_function(named: str, key: str) -> None:
@@ -187,7 +160,7 @@ def require_function(named: str, key: str) -> None:
         raise SettingsError(fault, key=key, value=function)
 
 
-def cases(path: str | Path) -> list[PlannedRow]:
+def cases(path: str | Path) -> list[Row]:
     """Rows of the experiment in a file on each of their scenes.
 
     Raises
@@ -217,7 +190,8 @@ def cases(path: str | Path) -> list[PlannedRow]:
             for label in [label for label in group.of or experiment.of if label in scenes]:
                 with kept_faults(*places):
                     names = [place[-1] for place in places]
-                    planned.append(_case(experiment, group, label, names, rows, scenes[label]))
+                    case = _case(experiment, group, label, names, rows, scenes[label])
+                    planned.append(case.but(number=len(planned) + 1))
     labelled = {(case.label, case.row) for case in planned}
     for label, against in dict.fromkeys((case.label, case.against) for case in planned):
         if against is not None and (label, against) not in labelled and not faults:
@@ -248,7 +222,7 @@ def _case(
     names: Sequence[str],
     rows: Sequence[Changes],
     values: dict[str, Any],
-) -> PlannedRow:
+) -> Row:
     """A row with these ``names`` and changes on the scene of a label, which has ``values``."""
     directions, model = ["r"], None
     for changes in [part for row in rows for part in (row, row.get(label, {}))]:
@@ -269,7 +243,7 @@ def _case(
         raise SettingsError("is no key of an experiment: take it out", key=refused[0])
     numbers = experiment.numbers
     function = numbers if isinstance(numbers, str) else numbers.get(label, "peaks")
-    return PlannedRow(
+    return Row(
         group=group.name,
         label=label,
         names=names,

@@ -54,6 +54,11 @@ class Sobol(SettingsFile):
         if self.samples & (self.samples - 1):
             raise SettingsError("should be a power of 2", key="samples", value=self.samples)
 
+    @property
+    def rows(self) -> int:
+        """Number of rows."""
+        return self.samples * (len(self.factors) + 2)
+
     def points(self) -> NDArray[np.float64]:
         """Factors (rows, factors) of all rows: of the samples A and B, and of each row of A.
 

@@ -1,4 +1,4 @@
-"""Functions of experiments: from the results of a row to its numbers.
+"""Functions of numbers: from the results of a row to its numbers.
 
 Their arguments are named after their values: ``runs``, the sweep of the row; ``single``, its run
 at the first speed alone; ``scene``; ``rom``, its model; ``reference``, the row with which it is

@@ -1,0 +1,251 @@
+"""Key ``design`` of a scene: a table of many runs, each row a scene with other values of some keys.
+
+The columns of the CSV file are keys of the scene by their paths (``columns``). A cell is written as
+in YAML; an empty one leaves the value of the scene, ``null`` takes the key away. Rows are numbered
+from 1, the line below the header. Instead of a CSV file the scene may name a YAML file with a Sobol
+design (``sobol``), which draws the rows.
+
+The table is read a line at a time: rows are counted before any is computed, and each becomes a
+scene where it is computed. A row whose scene is not valid stays a row, with its reason.
+"""
+
+import os
+import re
+from collections.abc import Container, Iterator, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from itertools import islice
+from pathlib import Path
+from typing import Any, Self
+
+import numpy as np
+
+from geometry.base import Fault, SettingsError, check_settings, csv_rows, number, parse
+from simulate.scene import Scene
+from workflow.many.columns import COLUMN, keys, placed, value_at
+from workflow.many.row import Row
+from workflow.many.sobol import Sobol
+
+FILE = re.compile(r"[/\\]|\.[^\W\d]")  # which the name of a file has, and no number
+NUMBERS = "workflow.many.design_rows:numbers"  # function of a row
+BLADE = "blade"  # column
+REFUSED = {  # columns that no row may have, by their first key
+    "accuracy": "one pilot chooses step, rods and strips for all rows: give it in the scene",
+    "design": "a row is one scene",
+    "base": "give it in the scene",
+    "format": "give it in the scene",
+}
+
+
+@dataclass(frozen=True)
+class Design:
+    r"""The rows of a table.
+
+    >>> _ = Path("table.csv").write_text("liner.law.K,damping_ratio\n0.3,0.01\n0.5,\n")
+    >>> design = Design.of(scene.but(design="table.csv"), Path("table.csv"))
+    >>> [(row.scene.liner.law.K, row.scene.damping_ratio) for row in design.rows()]
+    [(0.3, 0.01), (0.5, 0.005)]
+    """
+
+    path: Path
+    name: str  # of the scene
+    base: Scene  # without its design
+    columns: list[str]
+    count: int  # of the rows
+    blades: tuple[str, ...]  # of the rows, that of the scene first
+    files: tuple[str, ...]  # paths of the table, and of those that its cells name
+    sobol: Sobol | None = None  # where it has drawn the rows
+
+    @classmethod
+    def load(cls, scene_path: str | Path) -> Self:
+        """Read the scene file, and the header of the table that it names.
+
+        Raises
+        ------
+        geometry.base.errors.SettingsError
+            When the scene names none, or scene or header are not valid: a line for each fault.
+        """
+        return cls.of(Scene.load(scene_path), Path(scene_path))
+
+    @classmethod
+    def of(cls, scene: Scene, scene_path: Path) -> Self:
+        """Read the table of ``scene``, whose file is at ``scene_path``.
+
+        Raises
+        ------
+        geometry.base.errors.SettingsError
+            As ``load``.
+        """
+        if scene.design is None:
+            raise SettingsError("missing: give the table's CSV file", file=scene_path, key="design")
+        path, base = scene_path.parent / scene.design, scene.but(design=None)
+        about, blades, files = (path, scene_path.stem, base), {base.blade: None}, {str(path): None}
+        if path.suffix in (".yaml", ".yml"):
+            sobol = Sobol.load(path)
+            columns = [key for factor in sobol.factors.values() for key in factor.keys]
+            _require_columns(path, columns, base)
+            _require_numbers(path, columns, base)
+            return cls(*about, columns, sobol.rows, tuple(blades), tuple(files), sobol)
+        lines = _lines(path)
+        columns, count = next(lines, []), 0
+        _require_columns(path, columns, base)
+        at = columns.index(BLADE) if BLADE in columns else len(columns)
+        for count, line in enumerate(lines, 1):
+            if count == 1:
+                _require_keys(path, base, columns, line)
+            blades |= dict.fromkeys(filter(None, line[at : at + 1]))
+            files |= dict.fromkeys(filter(FILE.search, line))
+        if not count:
+            raise SettingsError("needs a header of keys and at least one row", file=path)
+        texts = {text for cell in files for text in _texts(_read(cell))}
+        named = str(path), *sorted(filter(os.path.isfile, texts - {str(path)}))
+        return cls(*about, columns, count, tuple(blades), named)
+
+    def rows(self, chosen: Container[int] | None = None) -> Iterator[Row]:
+        """The ``chosen`` rows (from 0), or all, with their scenes, which are read and checked."""
+        values = self.base.model_dump(exclude_unset=True)
+        for index, line in enumerate(self._lines()):
+            if chosen is None or index in chosen:
+                yield self._row(1 + index, values, line)
+
+    def _lines(self) -> Iterator[list[Any]]:
+        """Cells of all rows: of the CSV file; or values of the base times the factors drawn."""
+        if self.sobol is None:
+            return islice(_lines(self.path), 1, None)
+        of_base = [value_at(self.base, column) for column in self.columns]
+        keys_of_each = [len(factor.keys) for factor in self.sobol.factors.values()]
+        drawn = np.repeat(self.sobol.points(), keys_of_each, axis=1)
+        return (line.tolist() for line in of_base * drawn)
+
+    def _row(self, row: int, values: dict[str, Any], line: list[Any]) -> Row:
+        """Row of the cells of a ``line``; ``values`` are those of the base."""
+        about = {"number": row, "label": self.name, "names": (str(row),), "function": NUMBERS}
+        try:
+            scene = _scene(values, self.columns, line)
+        except SettingsError as error:
+            cells = dict.fromkeys(self.columns) | dict(zip(self.columns, line, strict=False))
+            given = {name: _read(cell) for name, cell in cells.items()}
+            return Row(scene=None, refused=str(error), given=given, **about)
+        given = {name: value_at(scene, name) for name in self.columns}
+        return Row(scene=scene, given=given, directions=self.base.directions, **about)
+
+    def require_row(self, row: int) -> Scene:
+        """The scene of a row, from 1.
+
+        Raises
+        ------
+        geometry.base.errors.SettingsError
+            When the table has no such row, or its scene is not valid.
+        """
+        about = {"file": self.path, "key": f"row {row}"}
+        if not 1 <= row <= self.count:
+            allowed = {"ge": 1, "le": self.count}
+            raise SettingsError(f"allowed 1 to {self.count}", allowed=allowed, **about)
+        found = next(self.rows({row - 1}))
+        if found.scene is None:
+            raise SettingsError(found.refused, **about)
+        return found.scene
+
+
+def _lines(path: Path) -> Iterator[list[str]]:
+    """Header and rows of the CSV file; lines without any value are left out."""
+    try:
+        yield from (cells for _, cells in csv_rows(path) if any(cells))
+    except SettingsError as error:
+        raise error.within(path) from None
+
+
+def _require_columns(path: Path, columns: Sequence[str], base: Scene) -> None:
+    """Refuse columns that no row may have.
+
+    Raises
+    ------
+    SettingsError
+        With a line for each.
+    """
+    faults = [
+        Fault(fault, "column", name) for name in columns for fault in _refused(name, columns, base)
+    ]
+    if faults:
+        raise SettingsError(*dict.fromkeys(faults), file=path)
+
+
+def _refused(name: str, columns: Sequence[str], base: Scene) -> list[str]:
+    """Why there may be no such column; empty if there may."""
+    path = keys(name)
+    if not COLUMN.fullmatch(name) or path[0] == BLADE != name:
+        return ["is no key of a scene"]
+    faults = [REFUSED[path[0]]] if path[0] in REFUSED else []
+    if name == BLADE and base.accuracy:
+        faults.append(f"accuracy: {REFUSED['accuracy']}, of one blade")
+    within = (
+        other for other in columns if other != name and path[: len(keys(other))] == keys(other)
+    )
+    faults += [f"is a part of column {other!r}" for other in within if other]
+    return faults + ["is there twice"] * (columns.count(name) > 1)
+
+
+def _require_keys(path: Path, base: Scene, columns: Sequence[str], line: Sequence[str]) -> None:
+    """Refuse columns that are no keys of the scene, by the first ``line``.
+
+    Raises
+    ------
+    SettingsError
+        With a line for each.
+    """
+    try:
+        _scene(base.model_dump(exclude_unset=True), columns, line)
+    except SettingsError as error:
+        unknown = [fault for fault in error.faults if fault.value is None and fault.allowed]
+        if unknown:
+            raise SettingsError(*unknown, file=f"{path}: column") from None
+
+
+def _scene(values: dict[str, Any], columns: Sequence[str], line: Sequence[Any]) -> Scene:
+    """The scene of a row: ``values`` of the base with the row's own."""
+    if len(line) != len(columns):
+        raise SettingsError(f"{len(line)} cells for {len(columns)} columns")
+    cells = {name: cell for name, cell in zip(columns, line, strict=True) if cell != ""}
+    return check_settings(Scene, placed(values, cells, read=_cell), "")
+
+
+def _require_numbers(path: Path, columns: Sequence[str], base: Scene) -> None:
+    """Refuse factors on keys that are no numbers in the scene.
+
+    Raises
+    ------
+    SettingsError
+        With a line for each.
+    """
+    faults = [
+        Fault("in the scene: should be a number", f"factors.{column}", value)
+        for column in columns
+        for value in [value_at(base, column)]
+        if isinstance(value, bool) or not isinstance(value, int | float)
+    ]
+    if faults:
+        raise SettingsError(*faults, file=path)
+
+
+def _cell(text: Any) -> Any:
+    """Value of a cell; of a number, itself."""
+    value = parse(text)[0] if isinstance(text, str) else text
+    if isinstance(value, str):
+        with suppress(ValueError):  # it stays a text
+            value = number(value)
+    return value
+
+
+def _read(text: Any) -> Any:
+    """The same; the text where it is no YAML."""
+    with suppress(ValueError):
+        return _cell(text)
+    return text
+
+
+def _texts(value: Any) -> list[str]:
+    """All texts in a value of a cell, some of which may be names of files."""
+    if isinstance(value, str):
+        return [value]
+    parts = value.values() if isinstance(value, dict) else value if isinstance(value, list) else []
+    return [text for part in parts for text in _texts(part)]

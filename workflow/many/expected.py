@@ -1,0 +1,34 @@
+"""Cost of a design before its rows are computed, from a sample of them."""
+
+from contextlib import suppress
+from random import Random
+from statistics import mean
+
+from geometry.base import UserError, duration
+from rom.model import Rom
+from simulate.sweeps.cost import cost
+from workflow.many.design import Design
+
+SAMPLE = 100  # rows, at random: tables of all combinations repeat their rows in some step
+
+
+def expected(design: Design, rom: Rom) -> str:
+    """Rows, runs, steps and time on one core of a design, in a line.
+
+    ``rom``: of the scene's blade, taken for all.
+    """
+    costs = []
+    chosen = {*Random(1).sample(range(design.count), min(SAMPLE, design.count))}
+    for row in design.rows(chosen):
+        with suppress(UserError):  # it is refused where it is computed
+            costs += [cost(row.scene, rom)] if row.scene else []
+    if not costs:
+        return f"{design.count} rows; of {len(chosen)} that were looked at all are refused"
+    names = ("speeds", "all_steps", "seconds")
+    each = {name: mean(getattr(of, name) for of in costs) for name in names}
+    total = {name: design.count * value for name, value in each.items()}
+    return (
+        f"{design.count} rows, some {total['speeds']:.6g} runs without those added around peaks: "
+        f"{total['all_steps']:.2g} steps, some {duration(total['seconds'])} on one core (from "
+        f"{len(costs)} rows)"
+    )

@@ -1,0 +1,82 @@
+"""The table of an experiment: a line for each row on each scene."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from itertools import chain
+from operator import itemgetter
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from geometry.base import ProvenanceError
+from workflow import markdown
+from workflow.many.row import About, ComputedRow
+from workflow.many.store import Store
+
+FIRST = ["group", "row", "scene", "blade", "refused", "cpu_s"]  # columns before the numbers
+OF_BLOCKS = ("number", "key")  # of an entry, which a table leaves out
+NONE = {"cpu_s": 0.0, "numbers": None}  # of a row that is refused
+
+
+def in_turn(blocks: Iterable[Iterable[About]]) -> list[About]:
+    """Rows of all blocks in the order of their table."""
+    return sorted(chain(*blocks), key=itemgetter("number"))
+
+
+def require_kept(entries: Iterable[About], kept: Mapping[str, Any], folder: str | Path) -> None:
+    """Refuse entries of blocks whose numbers are not among those ``kept`` in a ``folder``.
+
+    Raises
+    ------
+    ProvenanceError
+        When one is missing.
+    """
+    lost = [entry["row"] for entry in entries if "key" in entry and entry["key"] not in kept]
+    if lost:
+        text = f"{len(lost)} rows are gone or damaged, the first is {lost[0]}: delete the files "
+        raise ProvenanceError(f"{text}block-*.json beside it, and run it again", file=folder)
+
+
+def rows(blocks: list[list[About]], folder: str) -> list[ComputedRow]:
+    """Rows of all blocks, in the order of their table, with the numbers in the store ``folder``.
+
+    Raises
+    ------
+    ProvenanceError
+        When the store has lost some.
+    """
+    entries = in_turn(blocks)
+    kept = Store(folder).read({entry["key"] for entry in entries if "key" in entry})
+    require_kept(entries, kept, folder)
+    return [
+        {name: value for name, value in entry.items() if name not in OF_BLOCKS}
+        | kept.get(entry.get("key"), NONE)
+        for entry in entries
+    ]
+
+
+def frame(rows: Sequence[ComputedRow]) -> pd.DataFrame:
+    """Description of each row, its CPU time, and its numbers, nested ones by a joint name.
+
+    Lists among the numbers are left out, and columns without any value.
+
+    >>> row = dict.fromkeys(FIRST, "a") | {"numbers": {"k = 4": {"amplitude": 2.0}}}
+    >>> frame([row])["k = 4 amplitude"].tolist()
+    [2.0]
+    """
+    numbers = pd.json_normalize([row["numbers"] or {} for row in rows], sep=" ")
+    lists = [name for name in numbers if numbers[name].map(type).isin([list]).any()]
+    about = pd.DataFrame(rows).reindex(columns=FIRST)
+    whole = pd.concat([about, numbers.drop(columns=lists)], axis=1)
+    return whole.replace("", None).dropna(axis=1, how="all")
+
+
+def csv(rows: Sequence[ComputedRow]) -> str:
+    """The table as CSV."""
+    return frame(rows).to_csv(index=False)
+
+
+def table(rows: Sequence[ComputedRow]) -> str:
+    """The table as Markdown."""
+    columns = frame(rows).astype(object)
+    return markdown.table([*columns], columns.map(markdown.cell).values) + "\n"
