@@ -41,6 +41,32 @@ twin: false
 {}
 """
 MODEL = "results/reference/rom-r.nc"
+# A design of 200 rows of one speed, as a job marches it: in the states of both of its interfaces
+DESIGN = """
+import sys
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from rom.model import Rom
+model, folder = sys.argv[1], Path(sys.argv[2])
+(folder / "table.csv").write_text("liner.law.K\\n" + "".join(f"{0.1 + k / 200}\\n" for k in range(200)))
+scene = (folder / "sweep.yaml").read_text() + "design: table.csv\\nrounds: 2\\n"
+scene += "record: {spectrum_rounds: 1}\\n"
+(folder / "rows.yaml").write_text(scene.replace("count: 40", "count: 2"))
+rom = Rom.load(model)
+with TemporaryDirectory() as kept:
+    try:
+        from workflow.many.design import Design
+        from workflow.many.design_rows import tables
+        from workflow.many.engine import march_block
+        design = Design.load(folder / "rows.yaml")
+        block = march_block(design.rows(), kept, design.count, models={"reference": rom})
+        tables(design, rom, [block], kept)
+    except ImportError:  # before there was workflow.many
+        from simulate.scene.design import Design
+        from simulate.sweeps.design_runs import Engine, march_block, row_table
+        engine = Engine.of(Design.load(folder / "rows.yaml"), rom)
+        row_table(engine, march_block(engine, kept))
+"""
 
 
 class State:
@@ -58,6 +84,7 @@ class State:
             files.extractall(folder, filter="data")
         for scene, keys in SCENES.items():
             self.scene(scene).write_text(SCENE.format(keys))
+        (folder / "design_of_200_rows.py").write_text(DESIGN)
 
     def scene(self, name: str) -> Path:
         """File of a scene."""
@@ -67,9 +94,12 @@ class State:
         """Commands by their words in the table; the first makes the model of the others."""
         model = ["snakemake", "--cores", "1", "--quiet", "all", "--forceall", MODEL]
         out = str(self.folder / "out.nc")
-        return {"blade to reduced model": model} | {
-            name: ["simulate", MODEL, str(self.scene(name)), "-o", out] for name in SCENES
-        }
+        design = ["design_of_200_rows", MODEL, str(self.folder / "workflow/scenes")]
+        return (
+            {"blade to reduced model": model}
+            | {name: ["simulate", MODEL, str(self.scene(name)), "-o", out] for name in SCENES}
+            | {"design of 200 rows": design}
+        )
 
     def seconds(self, command: list[str]) -> float:
         """CPU time of a module's command in the folder, s; nan where this state refuses it."""
