@@ -48,7 +48,8 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from rom.model import Rom
 model, folder = sys.argv[1], Path(sys.argv[2])
-(folder / "table.csv").write_text("liner.law.K\\n" + "".join(f"{0.1 + k / 200}\\n" for k in range(200)))
+rows = "".join(f"{0.1 + k / 200}\\n" for k in range(200))
+(folder / "table.csv").write_text("liner.law.K\\n" + rows)
 scene = (folder / "sweep.yaml").read_text() + "design: table.csv\\nrounds: 2\\n"
 scene += "record: {spectrum_rounds: 1}\\n"
 (folder / "rows.yaml").write_text(scene.replace("count: 40", "count: 2"))

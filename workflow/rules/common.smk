@@ -441,7 +441,11 @@ def rom_of_row(wildcards):
     """The reduced model of a row of a design."""
     blade = read_or_fail(design_of(wildcards).require_row, int(wildcards.row)).blade
     own = blade == wildcards.blade
-    return rom_of_scene(wildcards) if own else f"results/{blade}/rom-{SCENES[wildcards.scene].directions}.nc"
+    return (
+        rom_of_scene(wildcards)
+        if own
+        else f"results/{blade}/rom-{SCENES[wildcards.scene].directions}.nc"
+    )
 
 
 def delivered(wildcards):
