@@ -4,7 +4,7 @@ from typing import ClassVar
 
 from pydantic import Field
 
-from geometry.base import Settings, SettingsError, checked, shifted
+from geometry.base import Fault, Settings, SettingsError, checked, require, shifted
 
 
 class Profile(Settings):
@@ -62,15 +62,22 @@ class Contact(Settings):
 
     @checked
     def _one_tangential_force(self) -> None:
-        if self.tangential and self.profile is None:
-            raise SettingsError(
-                "needs `profile: {edge_drop_um: ...}`: on a flat tip the force is radial",
-                key="tangential",
-                value=True,
-            )
-        if self.tangential and self.friction is not None:
-            raise SettingsError(
-                "does not go with `tangential: true`, the tangential force of the profile: take "
-                "one of them out",
-                key="friction",
-            )
+        require(
+            (
+                not self.tangential or self.profile is not None,
+                Fault(
+                    "needs `profile: {edge_drop_um: ...}`: on a flat tip the force is radial",
+                    "tangential",
+                    True,
+                ),
+            ),
+            (
+                not self.tangential or self.friction is None,
+                Fault(
+                    "does not go with `tangential: true`, the tangential force of the profile: "
+                    "take one of them out",
+                    "friction",
+                ),
+            ),
+            kind=SettingsError,
+        )
