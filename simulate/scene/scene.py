@@ -2,9 +2,9 @@
 
 from itertools import product
 from math import nan
-from typing import Any, ClassVar, Literal, Self
+from typing import Annotated, Any, ClassVar, Literal, Self
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from geometry.base import (
     Fault,
@@ -13,15 +13,57 @@ from geometry.base import (
     SettingsFile,
     checked,
     known,
+    one_of,
     require,
 )
 from geometry.elsewhere import AnyBlade
 from simulate.scene.casing import MOST_ROUNDS, Casing, Clearance, Gaps
-from simulate.scene.contact import Contact
-from simulate.scene.integrator import Integrator
-from simulate.scene.liner import Liner
+from simulate.scene.liner import Contact, Liner
 from simulate.scene.record import Peaks, Record
 from simulate.scene.speeds import Positive, Speeds
+
+StepsPerRound = Annotated[int, Field(ge=64, le=10**9)]
+NO_SCALING = {"mass_scaling_hz": "take it out: `piecewise-exact` is stable for any step"}
+
+
+class CentralDifference(Settings):
+    """Central differences with prediction and correction, Eqs. (18)-(20)."""
+
+    either: ClassVar = [("steps_per_round", "fraction_of_limit")]
+    replaced: ClassVar = NO_SCALING
+
+    scheme: Literal["central-difference"] = Field(description="the paper's, Eqs. (18)-(20)")
+    steps_per_round: StepsPerRound | None = Field(default=None, description="Steps per revolution")
+    fraction_of_limit: float | None = Field(
+        default=None, gt=0, le=1, description="Step over the stability limit with contact"
+    )
+
+
+class PiecewiseExact(Settings):
+    """Exact modes under a force constant over each step, that force implicit: always stable."""
+
+    replaced: ClassVar = NO_SCALING
+
+    scheme: Literal["piecewise-exact"] = Field(
+        description="exact for a contact force constant over the step, stable for any step"
+    )
+    steps_per_round: StepsPerRound = Field(description="Steps per revolution")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _no_limit(cls, values: Any) -> Any:
+        if isinstance(values, dict) and "fraction_of_limit" in values:
+            raise SettingsError(
+                "piecewise-exact has no stability limit; give steps_per_round instead",
+                key="fraction_of_limit",
+            )
+        return values
+
+
+Integrator = Annotated[
+    PiecewiseExact | CentralDifference,
+    one_of("integrator", "scheme", PiecewiseExact, CentralDifference),
+]
 
 
 class Start(Settings):
