@@ -6,13 +6,12 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
-from geometry.base import Caution, Provenance
+from geometry.base import Caution, Provenance, require
 from geometry.hats import mean, over_edges
 from geometry.stored import Stored, frozen, stored
-from rom.between import error_between
-from rom.full_model import FullModel
+from rom.full_model import FullModel, error_between
 from rom.model import CODE, DIRECTIONS, Rom, RomError
-from rom.speeds import node_polynomial, places_between
+from rom.polynomial import node_polynomial, places_between
 
 MORE = "raise basis.speeds, lower the highest speed"  # remedies of an error between the speeds
 
@@ -75,26 +74,32 @@ class RomCheck(Stored):
         error, (speed, mode) = abs(self.error), self.worst
         allowed = f"basis.tolerance_percent {tolerance_percent:g}"
         where = f"at {self.speeds[speed]:.6g} rad/s"
-        if np.isfinite(tolerance_percent) and not np.isfinite(error).all():
-            raise RomError(
+        # both ends of the range are speeds of every basis, at which the polynomial has no error
+        remedy = (
+            "at the ends of the range the error is far smaller, so it is that of K(Omega) "
+            f"between its speeds: {MORE}"
+            if error[[0, -1]].max() < error.max() / 4
+            else "raise basis.natural_modes, lower basis.rank_tolerance"
+        )
+        require(
+            (
+                not np.isfinite(tolerance_percent) or np.isfinite(error).all(),
                 f"the reduced K(Omega) is not positive definite {where}, where the full one "
-                f"is: {MORE}"
-            )
-        if error.max() > tolerance_percent / 100:
-            raise RomError(
+                f"is: {MORE}",
+            ),
+            (
+                not error.max() > tolerance_percent / 100,
                 f"frequency {mode + 1} is off by {100 * error.max():.3g} % {where}, above "
-                f"{allowed}; {self._remedy(error)} or allow more"
-            )
-        self._require_between(tolerance_percent, allowed)
-
-    def _require_between(self, tolerance_percent: float, allowed: str) -> None:
-        """Refuse matrices from elsewhere between whose speeds K(Omega) is wrong."""
-        if self.between > tolerance_percent / 100:
-            raise RomError(
+                f"{allowed}; {remedy} or allow more",
+            ),
+            (
+                not self.between > tolerance_percent / 100,  # holds for nan as well
                 f"frequencies of K(Omega) are off by some {100 * self.between:.2g} % between its "
                 f"{len(self.speeds)} speeds (one left out, and compared there), above {allowed}; "
-                f"give K at more speeds, or allow more"
-            )
+                f"give K at more speeds, or allow more",
+            ),
+            kind=RomError,
+        )
         if np.isnan(self.between) and "full_matrices" in self.provenance.settings:
             warnings.warn(
                 f"full_matrices.K: {len(self.speeds)} speeds: how far K(Omega) is off between them "
@@ -102,18 +107,6 @@ class RomCheck(Stored):
                 Caution,
                 stacklevel=2,
             )
-
-    def _remedy(self, error: NDArray[np.float64]) -> str:
-        """Settings to change: those of the polynomial K(Omega), or those of the basis.
-
-        Both ends of the range are speeds of every basis, at which the polynomial has no error.
-        """
-        if error[[0, -1]].max() < error.max() / 4:
-            return (
-                "at the ends of the range the error is far smaller, so it is that of K(Omega) "
-                f"between its speeds: {MORE}"
-            )
-        return "raise basis.natural_modes, lower basis.rank_tolerance"
 
 
 def check(rom: Rom, full: FullModel) -> RomCheck:

@@ -16,7 +16,7 @@ from geometry.blade import EnrichedBasis
 from geometry.hats import hat_nodes, projection
 from rom.basis import Components, enriched_basis, project
 from rom.model import Rom, RomError
-from rom.speeds import basis_speeds
+from rom.polynomial import basis_speeds
 
 MODES = 3 / 4  # the error of wear is of about fifth order in the natural modes: four times as large
 

@@ -8,14 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eigh
 
-from geometry.base import RPM, Provenance, UserError
+from geometry.base import RPM, Provenance, UserError, failed
 from geometry.hats import hats, lean, mean, middles, over_edges, projection
 from geometry.stored import Stored, frozen, stored
 from geometry.taper import slope_of_line
 from geometry.tip import EDGES, on_line
 from rom.polynomial import evaluate, interpolate
 
-CODE = ("fem.assemble", "rom.between", "rom.reduce")  # modules that compute its numbers
+CODE = ("fem.assemble", "rom.full_model", "rom.reduce")  # modules that compute its numbers
 SAME_F1 = 1e-6  # relative difference of squares, for round-off
 DIRECTIONS = {"r": "radial", "t": "tangential", "z": "axial"}
 KEPT = 256  # speeds whose modes are kept, of all models: 16 MB with 88 DoFs
@@ -136,15 +136,22 @@ class Rom(Stored):
         ValueError
             If not; the message says which.
         """
-        if not min(self.Omega_m, self.f1, self.span) > 0:
-            raise ValueError("Omega_m, f1 or span: not positive")
-        if np.any(np.diff(self.xi) <= 0) or len(self.points) not in (0, len(self.xi)):
-            raise ValueError("xi or points: not along the chord")
-        if (
-            min(len(self.xi), len(self.camber)) < 2  # displacements are linear between places
-            or not 0 < self.across * len(self.xi) * len(self.directions) <= self.n
+        if faults := failed(
+            (
+                min(self.Omega_m, self.f1, self.span) > 0,
+                "Omega_m, f1 or span: not positive",
+            ),
+            (
+                not np.any(np.diff(self.xi) <= 0) and len(self.points) in (0, len(self.xi)),
+                "xi or points: not along the chord",
+            ),
+            (
+                min(len(self.xi), len(self.camber)) >= 2  # displacements are linear between places
+                and 0 < self.across * len(self.xi) * len(self.directions) <= self.n,
+                "directions, xi or camber: too many or too few for M",
+            ),
         ):
-            raise ValueError("directions, xi or camber: too many or too few for M")
+            raise ValueError(faults[0])
         try:
             lowest = eigh(self.K[0], self.M, eigvals_only=True, subset_by_index=[0, 0])[0]
         except np.linalg.LinAlgError:

@@ -13,8 +13,7 @@ from geometry.tip import EDGES
 from rom.basis import Components, enriched_basis, paper_basis, project
 from rom.model import CODE, DIRECTIONS, Rom, require_letters
 from rom.modes import ModesError, ShiftInvert
-from rom.polynomial import interpolate
-from rom.speeds import basis_speeds
+from rom.polynomial import basis_speeds, interpolate
 
 MOST_CONDITION = 1e8  # of C; above, the mesh does not resolve the patches
 

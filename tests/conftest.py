@@ -97,7 +97,7 @@ def coarse_mesh(coarse_blade, tmp_path_factory) -> MeshFiles:
 def coarse_files(coarse_blade, coarse_mesh) -> BladeFiles:
     """Assemble the coarse blade."""
     from fem.assemble import assemble
-    from rom.speeds import basis_speeds
+    from rom.polynomial import basis_speeds
 
     matrices = coarse_mesh.mesh.with_name("matrices.h5")
     speeds = basis_speeds(coarse_blade.basis, coarse_blade.top_speed)
@@ -139,7 +139,7 @@ def paper_blade(coarse_blade) -> Blade:
 def paper_matrices(paper_blade, coarse_mesh):
     """Assemble it at the three speeds of the paper's basis."""
     from fem.assemble import assemble
-    from rom.speeds import basis_speeds
+    from rom.polynomial import basis_speeds
 
     speeds = basis_speeds(paper_blade.basis, paper_blade.top_speed)
     return assemble(paper_blade, "coarse-paper", coarse_mesh.mesh, speeds)

@@ -35,10 +35,9 @@ from geometry.frame import to_file
 from rom.model import Rom
 from rom.polynomial import evaluate
 from rom.reconstruct import Basis
-from simulate.errors.stressed import with_rotation
 from simulate.marching import WITH_RESULT
 from simulate.sweeps.dataset import Sweep, origin
-from simulate.sweeps.peak_results import asked
+from simulate.sweeps.peak_results import asked, with_rotation
 from workflow.shapes import Shapes, motion, stresses
 
 SHAPES = 12  # of the motion at all speeds

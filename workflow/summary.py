@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from geometry.base import csv_text, printable, read_json
 from geometry.blade import RPM_PER_HZ
 from geometry.tip import JUDGED
-from simulate.errors.beyond_linear import BEYOND
+from simulate.errors.model_errors import BEYOND
 from simulate.errors.neighbour import CHAOTIC, ONE_MOTION, TWO_MOTIONS
 from simulate.scene import DYING_OUT, GROWING, STEADY, TRENDS
 from simulate.sweeps.result_types import NO_CROSSING, Course, numbers_of

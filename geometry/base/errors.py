@@ -91,12 +91,14 @@ class MeshWarning(Caution):
 type Check = tuple[Any, str]  # whether it holds, and the fault where it does not
 
 
-def failed(*checks: Check) -> list[str]:
+def failed[F: Fault | str](*checks: tuple[Any, F]) -> list[F]:
     """The faults of the checks that do not hold."""
     return [fault for holds, fault in checks if not holds]
 
 
-def require(*checks: Check, kind: type[UserError] = MeshError, **about: Any) -> None:
+def require(
+    *checks: tuple[Any, Fault | str], kind: type[UserError] = MeshError, **about: Any
+) -> None:
     """Refuse by the first fault whose check does not hold.
 
     Parameters

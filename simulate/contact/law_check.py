@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from geometry.base import failed
 from simulate.scene.law import Law
 
 STRAINS = np.geomspace(1e-9, 0.9, 181)  # 20 in a decade
@@ -63,14 +64,24 @@ def fault(law: Law) -> str | None:
 
 def _faults(law: Law, modulus: float, last: Point, point: Point, taken: float) -> Iterator[str]:
     """Faults at a state, after ``last`` on the path; ``taken`` J/m3 is the work of the stress."""
-    if not all(map(isfinite, point)):
-        yield f"stress returns {point[2:]}, not finite"
-    if point.sigma < 0.0:
-        yield f"stress is {point.sigma:.3g} Pa, and the liner bears no tension"
-    if point.after > point.eps * (1 + ROUND_OFF):
-        yield f"plastic strain is {point.after:.3g}, more than the total strain"
-    if point.sigma < last.sigma * (1 - ROUND_OFF):
-        yield f"stress falls from {last.sigma:.3g} to {point.sigma:.3g} Pa while the strain grows"
+    yield from failed(
+        (
+            all(map(isfinite, point)),
+            f"stress returns {point[2:]}, not finite",
+        ),
+        (
+            point.sigma >= 0.0,
+            f"stress is {point.sigma:.3g} Pa, and the liner bears no tension",
+        ),
+        (
+            point.after <= point.eps * (1 + ROUND_OFF),
+            f"plastic strain is {point.after:.3g}, more than the total strain",
+        ),
+        (
+            point.sigma >= last.sigma * (1 - ROUND_OFF),
+            f"stress falls from {last.sigma:.3g} to {point.sigma:.3g} Pa while the strain grows",
+        ),
+    )
     yield from _unloading_faults(law, point)
     yield from _tangent_faults(law, modulus, point)
     elastic = point.eps - point.after
@@ -86,10 +97,16 @@ def _faults(law: Law, modulus: float, last: Point, point: Point, taken: float) -
 def _unloading_faults(law: Law, point: Point) -> Iterator[str]:
     """Unloading is linear, down to the plastic strain; below it the gap is open."""
     sigma, after, _ = law.stress(law.parameters, (point.eps + point.after) / 2, point.after)
-    if abs(sigma - point.sigma / 2) > STEP * point.sigma:
-        yield f"unloaded by half, stress is {sigma:.6g} of {point.sigma:.6g} Pa: not linear"
-    if abs(after - point.after) > ROUND_OFF * point.after:
-        yield f"unloaded by half, plastic strain changes from {point.after:.6g} to {after:.6g}"
+    yield from failed(
+        (
+            not abs(sigma - point.sigma / 2) > STEP * point.sigma,
+            f"unloaded by half, stress is {sigma:.6g} of {point.sigma:.6g} Pa: not linear",
+        ),
+        (
+            not abs(after - point.after) > ROUND_OFF * point.after,
+            f"unloaded by half, plastic strain changes from {point.after:.6g} to {after:.6g}",
+        ),
+    )
     sigma = (
         law.stress(law.parameters, point.after / 2, point.after)[0] if point.after > 0.0 else 0.0
     )
@@ -103,10 +120,17 @@ def _tangent_faults(law: Law, modulus: float, point: Point) -> Iterator[str]:
     below, above = (law.stress(law.parameters, point.eps + d, point.before)[0] for d in (-h, h))
     left, right = (point.sigma - below) / h, (above - point.sigma) / h
     size = max(abs(left), abs(right), point.sigma / point.eps)
-    if abs(left - right) < KINK * size and abs(point.tangent - left) > TANGENT * size:
-        yield f"tangent is {point.tangent:.3g} Pa, the derivative of the stress {left:.3g} Pa"
-    if point.tangent > modulus * (1 + ROUND_OFF):
-        yield f"tangent is {point.tangent:.3g} Pa, above the modulus of {modulus:.3g} Pa"
+    kink = not abs(left - right) < KINK * size
+    yield from failed(
+        (
+            kink or not abs(point.tangent - left) > TANGENT * size,
+            f"tangent is {point.tangent:.3g} Pa, the derivative of the stress {left:.3g} Pa",
+        ),
+        (
+            not point.tangent > modulus * (1 + ROUND_OFF),
+            f"tangent is {point.tangent:.3g} Pa, above the modulus of {modulus:.3g} Pa",
+        ),
+    )
 
 
 def compile_fault(law: Law, error: Exception) -> str:

@@ -1,7 +1,7 @@
 """One run: modes, set-up, schemes, status."""
 
 from simulate.marching.refusals import check_scene
-from simulate.marching.run import Outcome, make_kernel, march
+from simulate.marching.run import FinalState, Outcome, Worn, make_kernel, march
 from simulate.marching.setup import (
     SceneError,
     Setup,
@@ -10,7 +10,6 @@ from simulate.marching.setup import (
     prepare,
     strip_stiffness,
 )
-from simulate.marching.start import FinalState, Worn
 from simulate.marching.states import largest_state
 from simulate.marching.status import (
     SENSITIVE_FROM,

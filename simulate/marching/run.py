@@ -1,4 +1,9 @@
-"""Run of one scene at one speed: all revolutions, with the recorded outputs and the status."""
+"""Run of one scene at one speed: all revolutions, with the recorded outputs and the status.
+
+A run starts at rest, or from the end of another: the blade's motion, the rods under its tip, the
+wear. At the same speed it goes on to the last bit as one that never stopped. At another speed the
+blade keeps its displacement u = Phi q and velocity Phi q', on the modes of K(Omega) there.
+"""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -18,15 +23,44 @@ from simulate.contact.strips import offset
 from simulate.marching import central_difference, piecewise_exact
 from simulate.marching.friction import sliding
 from simulate.marching.kernel import RUNNING, WORN_THROUGH, Recorded, State, at_start, march_round
-from simulate.marching.modal import TURNS, padded_rows, rows_of
+from simulate.marching.modal import TURNS, Scheme, padded_rows, rows_of
 from simulate.marching.setup import Setup, compiling, strip_stiffness
-from simulate.marching.start import FinalState, Worn, begin, final_state
 from simulate.marching.states import MostStrained, every
 from simulate.marching.status import WITH_RESULT, Facts, judge, why_no_contact
 from simulate.marching.trend import Rounds, looks, time_constant
 from simulate.scene import STEADY, TOO_SHORT, Record, Scene
 
 SCHEMES = {"central-difference": central_difference, "piecewise-exact": piecewise_exact}
+UNDER = ("at", "passed", "stored", "ramp", "low", "high")  # of ``rods.STRIP``
+SOLVER = ("F", "moment", "reaction")  # of ``interface_force.AT_STRIP``
+
+
+@dataclass(frozen=True)
+class FinalState:
+    """End of a run; modes and rows are padded as those of the kernel."""
+
+    Omega: float  # rad/s
+    h: float  # s
+    rounds: int  # since the casing began to distort
+    omega: NDArray[np.float64]  # (n,), rad/s
+    Phi: NDArray[np.float64]  # (n, n)
+    x: NDArray[np.float64]  # (2, modes), modal displacements
+    y: NDArray[np.float64]  # (2, modes), second phase-plane coordinates
+    u: NDArray[np.float64]  # (2, rows), m, interface displacements
+    moved: NDArray[np.float64]  # (rows,), m, displacement by the force of the last step
+    eps_p: NDArray[np.float64]  # (strips, nu), plastic strains
+    part: NDArray[np.float64]  # (strips, window), of each rod that the tip covers
+    stored: NDArray[np.float64]  # (strips, window), J/m3, its elastic energy
+    under: NDArray[np.float64]  # (UNDER, strips)
+    solver: NDArray[np.float64]  # (SOLVER, strips)
+
+
+@dataclass(frozen=True)
+class Worn:
+    """Liner at the end of a run, for a blade at rest."""
+
+    eps_p: NDArray[np.float64]  # (strips, nu), plastic strains
+    rounds: int = 0  # since the casing began to distort: it does so anew
 
 
 @dataclass(frozen=True)
@@ -315,3 +349,61 @@ def _ledger(
         friction=float(energies[FRICTION]),
         heat=float(energies[HEAT]),
     )
+
+
+def rows_at(rounds: int, steps: int) -> list[int]:
+    """Rows, of TURNS in a ring, of the last step and the one before after so many revolutions."""
+    row = rounds * steps % TURNS
+    return [row, (row - 1) % TURNS]
+
+
+def final_state(state: State, setup: Setup, rounds: int) -> FinalState:
+    """End of a run after ``rounds``, since the casing began to distort."""
+    motion, covered, rows = state.motion, state.covered, rows_at(rounds, setup.steps)
+    return FinalState(
+        Omega=setup.Omega,
+        h=setup.h,
+        rounds=rounds,
+        omega=setup.omega,
+        Phi=setup.Phi,
+        x=motion.x[rows],
+        y=motion.y[rows],
+        u=motion.u[rows],
+        moved=motion.moved.copy(),
+        eps_p=state.eps_p.copy(),
+        part=covered.rods["part"].copy(),
+        stored=covered.rods["stored"].copy(),
+        under=np.array([covered.strips[name] for name in UNDER], float),
+        solver=np.array([state.solver.strips[name] for name in SOLVER]),
+    )
+
+
+def begin(
+    state: State,
+    start: FinalState | Worn,
+    scheme: Scheme,
+    integrator: Any,
+    setup: Setup,
+    zeta: float,
+) -> None:
+    """Put the end of a run into a ``state`` at rest; ``integrator``: the module of the scheme."""
+    state.eps_p[:] = start.eps_p
+    if isinstance(start, Worn):
+        return
+    motion, rows = state.motion, rows_at(start.rounds, setup.steps)
+    if start.Omega == setup.Omega:
+        motion.x[rows], motion.y[rows], motion.u[rows] = start.x, start.y, start.u
+    else:
+        n = setup.omega.size
+        x, y = start.x[:, :n], start.y[:, :n]
+        q, v = integrator.motion_of(start.omega, zeta, start.h, x, y)
+        q, v = (np.linalg.solve(setup.Phi, start.Phi @ part) for part in (q, v))
+        x, y = integrator.turns_of(setup.omega, zeta, setup.h, q, v)
+        motion.x[rows, :n], motion.y[rows, :n] = x, y
+        motion.u[rows] = motion.x[rows] @ scheme.Phi.T
+    motion.moved[:] = start.moved
+    state.covered.rods["part"], state.covered.rods["stored"] = start.part, start.stored
+    for name, values in zip(UNDER, start.under, strict=True):
+        state.covered.strips[name] = values
+    for name, values in zip(SOLVER, start.solver, strict=True):
+        state.solver.strips[name] = values

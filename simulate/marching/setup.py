@@ -30,9 +30,9 @@ from simulate.marching.modal import LANES, rows_of
 from simulate.marching.piecewise_exact import gain, share_of_end
 from simulate.marching.stability import step_limit
 from simulate.scene import LEADING, Casing, Contact, Gaps, Liner, Profile, Scene
-from simulate.scene.integrator import Integrator
 from simulate.scene.law import Law
 from simulate.scene.laws import LAWS
+from simulate.scene.scene import Integrator
 
 LARGEST_DISPLACEMENT = 0.1  # of the span: beyond this, linear elasticity no longer applies
 INERTIA = 1 / 12  # of a footprint: the moment under a lean of 1, over the force under a w of 1

@@ -9,9 +9,7 @@ from simulate.scene.casing import (
     Harmonic,
     side_bands,
 )
-from simulate.scene.contact import Contact, Profile
-from simulate.scene.integrator import CentralDifference, PiecewiseExact
-from simulate.scene.liner import STRIPS, Liner
+from simulate.scene.liner import STRIPS, Contact, Liner, Profile
 from simulate.scene.record import (
     DYING_OUT,
     GROWING,
@@ -22,7 +20,13 @@ from simulate.scene.record import (
     Peaks,
     Record,
 )
-from simulate.scene.scene import OF_LAST_ROUNDS, Scene, fault_of_blade
+from simulate.scene.scene import (
+    OF_LAST_ROUNDS,
+    CentralDifference,
+    PiecewiseExact,
+    Scene,
+    fault_of_blade,
+)
 from simulate.scene.speeds import OF_RPM, OVER_F1, Speeds
 
 __all__ = [

@@ -16,7 +16,7 @@ from typing import Any
 
 from pydantic import Field
 
-from geometry.base import SettingsError, check_settings, hashes, shown
+from geometry.base import SettingsError, check_settings, hashes, require, shown
 from simulate.scene.law import Law
 
 FOLDER = Path("workflow/laws")  # of the project
@@ -74,17 +74,20 @@ def named(kind: str, code: object = None) -> type[Law]:
             key="kind",
             value=kind,
         )
-    if hashes(law.code_files) != law.code_files:
-        raise SettingsError(
-            "edited since it was imported: start Python anew", key="kind", value=kind
-        )
-    if code not in (None, law.code_hash):
-        raise SettingsError(
+    require(
+        (
+            hashes(law.code_files) == law.code_files,
+            "edited since it was imported: start Python anew",
+        ),
+        (
+            code in (None, law.code_hash),
             f"its code has the hash {law.code_hash}, not {shown(code)}: it was changed; run the "
             f"scene anew",
-            key="kind",
-            value=kind,
-        )
+        ),
+        kind=SettingsError,
+        key="kind",
+        value=kind,
+    )
     return law
 
 

@@ -2,18 +2,68 @@
 
 from itertools import product
 from math import nan
-from typing import Any, ClassVar, Literal, Self
+from typing import Annotated, Any, ClassVar, Literal, Self
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
-from geometry.base import Fault, Settings, SettingsError, SettingsFile, checked, known
+from geometry.base import (
+    Fault,
+    Settings,
+    SettingsError,
+    SettingsFile,
+    checked,
+    known,
+    one_of,
+    require,
+)
 from geometry.elsewhere import AnyBlade
 from simulate.scene.casing import MOST_ROUNDS, Casing, Clearance, Gaps
-from simulate.scene.contact import Contact
-from simulate.scene.integrator import Integrator
-from simulate.scene.liner import Liner
+from simulate.scene.liner import Contact, Liner
 from simulate.scene.record import Peaks, Record
 from simulate.scene.speeds import Positive, Speeds
+
+StepsPerRound = Annotated[int, Field(ge=64, le=10**9)]
+NO_SCALING = {"mass_scaling_hz": "take it out: `piecewise-exact` is stable for any step"}
+
+
+class CentralDifference(Settings):
+    """Central differences with prediction and correction, Eqs. (18)-(20)."""
+
+    either: ClassVar = [("steps_per_round", "fraction_of_limit")]
+    replaced: ClassVar = NO_SCALING
+
+    scheme: Literal["central-difference"] = Field(description="the paper's, Eqs. (18)-(20)")
+    steps_per_round: StepsPerRound | None = Field(default=None, description="Steps per revolution")
+    fraction_of_limit: float | None = Field(
+        default=None, gt=0, le=1, description="Step over the stability limit with contact"
+    )
+
+
+class PiecewiseExact(Settings):
+    """Exact modes under a force constant over each step, that force implicit: always stable."""
+
+    replaced: ClassVar = NO_SCALING
+
+    scheme: Literal["piecewise-exact"] = Field(
+        description="exact for a contact force constant over the step, stable for any step"
+    )
+    steps_per_round: StepsPerRound = Field(description="Steps per revolution")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _no_limit(cls, values: Any) -> Any:
+        if isinstance(values, dict) and "fraction_of_limit" in values:
+            raise SettingsError(
+                "piecewise-exact has no stability limit; give steps_per_round instead",
+                key="fraction_of_limit",
+            )
+        return values
+
+
+Integrator = Annotated[
+    PiecewiseExact | CentralDifference,
+    one_of("integrator", "scheme", PiecewiseExact, CentralDifference),
+]
 
 
 class Start(Settings):
@@ -186,35 +236,50 @@ class Scene(SettingsFile):
         }
         given = [key for key, value in values.items() if value is not None]
         missing = [key for key in ("integrator", "liner.rods_per_round") if key not in given]
-        if self.accuracy is not None and given:
-            raise SettingsError(
-                f"chooses integrator, liner.rods_per_round and liner.strips, but "
-                f"{' and '.join(given)} is set: take out accuracy, or set these to null",
-                key="accuracy",
-            )
-        if self.accuracy is None and missing:
-            raise SettingsError(
-                f"give {' and '.join(missing)}, or `accuracy: 0.01` for a relative error of 1 %",
-                allowed=[*missing, "accuracy"],
-            )
+        require(
+            (
+                self.accuracy is None or not given,
+                Fault(
+                    f"chooses integrator, liner.rods_per_round and liner.strips, but "
+                    f"{' and '.join(given)} is set: take out accuracy, or set these to null",
+                    "accuracy",
+                ),
+            ),
+            (
+                self.accuracy is not None or not missing,
+                Fault(
+                    f"give {' and '.join(missing)}, or `accuracy: 0.01` for a relative error of "
+                    "1 %",
+                    allowed=[*missing, "accuracy"],
+                ),
+            ),
+            kind=SettingsError,
+        )
 
     @checked
     def _central_differences_press_on_rods_without_friction(self) -> None:
         if self.integrator is None or self.integrator.scheme != "central-difference":
             return
         needs = "needs `integrator: {scheme: piecewise-exact, steps_per_round: ...}`: "
-        if self.liner.rigid_key:
-            key, value = self.liner.rigid_key.split(": ")
-            raise SettingsError(
-                f"{needs}central differences cannot find the reaction of a rigid casing",
-                key=f"liner.{key}",
-                value=value,
-            )
-        if self.contact.friction is not None:
-            raise SettingsError(
-                f"{needs}the stability limit of central differences is that without friction",
-                key="contact.friction",
-            )
+        key, _, value = (self.liner.rigid_key or "").partition(": ")
+        require(
+            (
+                not self.liner.rigid_key,
+                Fault(
+                    f"{needs}central differences cannot find the reaction of a rigid casing",
+                    f"liner.{key}",
+                    value,
+                ),
+            ),
+            (
+                self.contact.friction is None,
+                Fault(
+                    f"{needs}the stability limit of central differences is that without friction",
+                    "contact.friction",
+                ),
+            ),
+            kind=SettingsError,
+        )
 
     @checked
     def _a_sliding_tip_presses_on_rods(self) -> None:
@@ -229,40 +294,41 @@ class Scene(SettingsFile):
 
     @checked
     def _runs_are_compared_in_what_is_recorded(self) -> None:
-        for key in ("accuracy", "twin", "halving"):
-            if getattr(self, key) and not self.record.observables:
-                raise SettingsError(
-                    "applies to recorded outputs: set record.wear or another of record", key=key
-                )
+        said = "applies to recorded outputs: set record.wear or another of record"
+        require(
+            *(
+                (self.record.observables or not getattr(self, key), Fault(said, key))
+                for key in ("accuracy", "twin", "halving")
+            ),
+            kind=SettingsError,
+        )
 
     @checked
     def _peaks_are_of_the_spectrum(self) -> None:
-        if self.peaks and not self.record.spectrum_rounds:
-            raise SettingsError(
-                "are found in the spectrum: set record.spectrum_rounds", key="peaks"
-            )
         samples = self.record.samples_per_round
         highest = max((self.peaks and self.peaks.orders) or [0])
         allowed = self.record.highest_order
-        if highest > allowed:
-            raise SettingsError(
-                f"allowed up to {allowed}, less than half of record.samples_per_round = {samples}, "
-                "which the spectrum holds",
-                key="peaks.orders",
-                value=highest,
-                allowed={"le": allowed},
-            )
+        require(
+            (
+                self.record.spectrum_rounds or not self.peaks,
+                Fault("are found in the spectrum: set record.spectrum_rounds", "peaks"),
+            ),
+            (
+                highest <= allowed,
+                Fault(
+                    f"allowed up to {allowed}, less than half of record.samples_per_round = "
+                    f"{samples}, which the spectrum holds",
+                    "peaks.orders",
+                    highest,
+                    {"le": allowed},
+                ),
+            ),
+            kind=SettingsError,
+        )
 
     @checked
     def _keys_go_together(self) -> None:
-        if (self.clearance is None) == (self.casing.line is None):
-            found = "none" if self.clearance is None else "both"
-            raise SettingsError(
-                f"give exactly one of clearance, casing.line; found {found} (`clearance: null` "
-                "takes out that of the base)",
-                key="clearance",
-            )
-        start = self.start
+        found, start = "none" if self.clearance is None else "both", self.start
         asked = {
             "start": start,
             "start.speed_over_f1": start and start.speed_over_f1 and not start.liner_only,
@@ -277,29 +343,56 @@ class Scene(SettingsFile):
             AT_REST: self.gaps.vary,
             TRAVELLING: self.casing.travelling,
         }
-        for key, other in EXCLUDED:
-            if asked[key] and asked[other]:
-                raise SettingsError(f"does not go with {other}: take one of them out", key=key)
+        require(
+            (
+                (self.clearance is None) != (self.casing.line is None),
+                Fault(
+                    f"give exactly one of clearance, casing.line; found {found} (`clearance: null` "
+                    "takes out that of the base)",
+                    "clearance",
+                ),
+            ),
+            *(
+                (
+                    not (asked[key] and asked[other]),
+                    Fault(f"does not go with {other}: take one of them out", key),
+                )
+                for key, other in EXCLUDED
+            ),
+            kind=SettingsError,
+        )
 
     @checked
     def _record_fits_steps_and_rounds(self) -> None:
         samples = self.record.samples_per_round
         steps = self.integrator.steps_per_round if self.integrator else None
-        if steps is not None and steps % samples:
-            raise SettingsError(
-                f"allowed multiples of record.samples_per_round = {samples}",
-                key="integrator.steps_per_round",
-                value=steps,
-                allowed={"multiple_of": samples},
-            )
-        for key in ("spectrum_rounds", "states_rounds"):
-            if (asked := getattr(self.record, key) or 0) > self.rounds:
-                raise SettingsError(
-                    f"allowed up to rounds = {self.rounds}",
-                    key=f"record.{key}",
-                    value=asked,
-                    allowed={"le": self.rounds},
+        rounds = {
+            key: getattr(self.record, key) or 0 for key in ("spectrum_rounds", "states_rounds")
+        }
+        require(
+            (
+                steps is None or steps % samples == 0,
+                Fault(
+                    f"allowed multiples of record.samples_per_round = {samples}",
+                    "integrator.steps_per_round",
+                    steps,
+                    {"multiple_of": samples},
+                ),
+            ),
+            *(
+                (
+                    asked <= self.rounds,
+                    Fault(
+                        f"allowed up to rounds = {self.rounds}",
+                        f"record.{key}",
+                        asked,
+                        {"le": self.rounds},
+                    ),
                 )
+                for key, asked in rounds.items()
+            ),
+            kind=SettingsError,
+        )
 
 
 def fault_of_blade(scene: Scene, blade: AnyBlade) -> Fault | None:

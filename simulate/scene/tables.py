@@ -15,6 +15,7 @@ from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag
 
 from geometry.base import (
     RPM,
+    Fault,
     Settings,
     SettingsError,
     check_settings,
@@ -22,6 +23,7 @@ from geometry.base import (
     csv_rows,
     known,
     numbers,
+    require,
     shown,
 )
 
@@ -230,33 +232,42 @@ class Table(Points):
     @checked
     def _one_round(self) -> None:
         (first, *_, last), depth = self.theta_deg, self.depth_um
-        if (first, last) == (0, 360) and depth[0] != depth[-1]:
-            raise ValueError(
+        deepest, rise = max(map(abs, depth)), abs(depth[0] - depth[-1])
+        require(
+            (
+                (first, last) != (0, 360) or rise == 0,
                 f"depths at 0 and 360 deg, which are one place, differ: {depth[0]:g} and "
-                f"{depth[-1]:g} um: leave the row at 360 out, or give both their mean"
-            )
-        if (deepest := max(map(abs, depth))) > LARGEST_DEPTH:
-            raise SettingsError(
-                f"allowed up to {LARGEST_DEPTH:g} um: name the column by its unit, depth_m, "
-                "depth_mm or depth_um",
-                key="depth_um",
-                value=deepest,
-                allowed={"le": LARGEST_DEPTH},
-            )
-        if len(depth) > FEW and last <= RADIANS:
-            raise SettingsError(
-                f"the last of {len(depth)} angles: are they radians? A bump as narrow as that in "
-                "degrees needs rows at 0 and 360 besides",
-                key="theta_deg",
-                value=last,
-            )
-        rise = abs(depth[0] - depth[-1])
-        if first + 360.0 - last > WIDEST and rise > CHANGE * np.ptp(depth):
-            raise SettingsError(
-                f"no depth from {last:g} on to {first:g} deg, where it changes by {rise:g} um: "
-                "give angles all around, 0 to 360",
-                key="theta_deg",
-            )
+                f"{depth[-1]:g} um: leave the row at 360 out, or give both their mean",
+            ),
+            (
+                deepest <= LARGEST_DEPTH,
+                Fault(
+                    f"allowed up to {LARGEST_DEPTH:g} um: name the column by its unit, depth_m, "
+                    "depth_mm or depth_um",
+                    "depth_um",
+                    deepest,
+                    {"le": LARGEST_DEPTH},
+                ),
+            ),
+            (
+                len(depth) <= FEW or last > RADIANS,
+                Fault(
+                    f"the last of {len(depth)} angles: are they radians? A bump as narrow as that "
+                    "in degrees needs rows at 0 and 360 besides",
+                    "theta_deg",
+                    last,
+                ),
+            ),
+            (
+                first + 360.0 - last <= WIDEST or rise <= CHANGE * np.ptp(depth),
+                Fault(
+                    f"no depth from {last:g} on to {first:g} deg, where it changes by {rise:g} um: "
+                    "give angles all around, 0 to 360",
+                    "theta_deg",
+                ),
+            ),
+            kind=SettingsError,
+        )
 
     def inward(self, theta: NDArray[np.float64]) -> NDArray[np.float64]:
         """d(theta), m; ``theta`` in rad."""

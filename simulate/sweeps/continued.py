@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 import xarray as xr
 
-from geometry.base import Fault
+from geometry.base import Fault, require
 from rom.model import Rom
 from simulate.marching import WITH_RESULT, FinalState, SceneError, Worn
 from simulate.scene.own_laws import Unread
@@ -93,19 +93,20 @@ def _run_at(runs: xr.Dataset, speed_over_f1: float, name: str) -> xr.Dataset:
     """The run of a sweep at a speed."""
     speeds = runs["speed_over_f1"].values
     index = int(np.abs(speeds - speed_over_f1).argmin())
-    if abs(speeds[index] / speed_over_f1 - 1) > SAME_SPEED:
-        raise SceneError(
+    run = runs.isel(speed_over_f1=index)
+    require(
+        (
+            abs(speeds[index] / speed_over_f1 - 1) <= SAME_SPEED,
             f"has no run at {speed_over_f1:.6g} f1(0); its nearest is at {speeds[index]:.6g}: "
             "give start.speed_over_f1, or the same speeds",
-            key="start.scene",
-            value=name,
-        )
-    run = runs.isel(speed_over_f1=index)
-    if run["status"].item() not in WITH_RESULT:
-        raise SceneError(
+        ),
+        (
+            run["status"].item() in WITH_RESULT,
             f"its run at {speed_over_f1:.6g} f1(0) ended {run['status'].item()}: no run can "
             "continue from there",
-            key="start.scene",
-            value=name,
-        )
+        ),
+        kind=SceneError,
+        key="start.scene",
+        value=name,
+    )
     return run

@@ -402,24 +402,19 @@ def entry(
 
 def of_run(run: Run) -> xr.Dataset:
     """One run as a dataset with a speed axis of length one."""
-    values = _of_march(run) | _energies(run) | _asked_for(run)
-    checks = run.scene.checked_share or run.scene.halving
-    unknown = dict.fromkeys(run.scene.record.observables, np.nan) if checks else {}
+    scene, values = run.scene, _of_march(run) | _energies(run) | _asked_for(run)
+    checks = scene.checked_share or scene.halving
+    unknown = dict.fromkeys(scene.record.observables, np.nan) if checks else {}
     for name, by_name in {"departure": run.departures, "error": run.errors}.items():
         if by_observable := by_name or unknown:
             values |= {name: [*by_observable.values()], "observable": [*by_observable]}
-    final = run.outcome.final if run.scene.record.end else None
-    return _dataset(run.scene, values).assign(of_final_state(final) if final else {})
-
-
-def _dataset(scene: Scene, values: dict[str, Any]) -> xr.Dataset:
-    """The ``values`` of a run by name, with dimensions, units and meanings."""
+    final = scene.record.end and run.outcome.final
     said = {
         "record": scene.record,
         "of_friction": OF_FRICTION if scene.contact.friction is not None else "",
         "since": "the end of the run" if scene.until else "the start",
         "second_run": "twice to an eighth of the step; nan where it is not checked"
-        if scene.checked_share or scene.halving
+        if checks
         else "a coarser companion run",
     }
     coords = {
@@ -434,7 +429,7 @@ def _dataset(scene: Scene, values: dict[str, Any]) -> xr.Dataset:
         for name, (dims, units, meaning) in VARIABLES.items()
         if name in values
     }
-    return xr.Dataset(variables, coords)
+    return xr.Dataset(variables, coords).assign(of_final_state(final) if final else {})
 
 
 def of_final_state(final: FinalState) -> dict[str, tuple]:
@@ -554,7 +549,7 @@ def _asked_for(run: Run) -> dict[str, Any]:
     """Outputs that the scene asks for, and those of its friction and law, with coordinates."""
     scene, record = run.scene, run.scene.record
     outputs = (
-        (record.wear, _of_wear),
+        (record.wear, lambda run: {"wear": run.outcome.wear.astype(np.float32)}),
         (record.spectrum_rounds, of_spectrum),
         (record.history, _of_history),
         (record.states_rounds, _of_states),
@@ -567,11 +562,6 @@ def _asked_for(run: Run) -> dict[str, Any]:
     return {
         name: values for wanted, make in outputs if wanted for name, values in make(run).items()
     }
-
-
-def _of_wear(run: Run) -> dict[str, Any]:
-    """Worn depths."""
-    return {"wear": run.outcome.wear.astype(np.float32)}
 
 
 def _of_curve(run: Run) -> dict[str, Any]:

@@ -34,18 +34,18 @@ from numpy.typing import NDArray
 
 from fem.worst_node import NodeStress
 from geometry.base import Say, SettingsError, known, progress, silent
+from geometry.blade import Fatigue
 from geometry.tip import EDGES
 from rom.coarser import coarser
 from rom.model import Rom, RomError
-from simulate.errors.beyond_linear import BEYOND, SHARE, SecondOrder
 from simulate.errors.companion import FINER_TIMES, TIMES, Fineness, companion
-from simulate.errors.model_errors import ModelError
+from simulate.errors.model_errors import BEYOND, SHARE, ModelError, SecondOrder
 from simulate.errors.neighbour import CHAOTIC, ONE_MOTION, TWO_MOTIONS, Neighbour
 from simulate.errors.neighbours import ITSELF, TWIN, raised
 from simulate.errors.observables import Numbers, numbers
-from simulate.errors.run import Case, as_long
-from simulate.errors.stressed import OF_STRESS, at_node, mesh_errors, stress_of, through
+from simulate.errors.run import Case, Run, as_long
 from simulate.marching import SENSITIVE_FROM, WITH_RESULT, prepare
+from simulate.marching.states import every
 from simulate.scene import LEADING, OF_LAST_ROUNDS, Scene
 from simulate.signals import gaps_at_ends, leading_gap, leading_wear, lobe_count
 from simulate.sweeps.continued import before
@@ -60,6 +60,7 @@ OF_CONTACT = {  # numbers of a peak by their name in files, and that in ``NUMBER
     **{name: name for name in ("wear", "worn_volume", "opening", "force_peak", "torque")},
     "force": "force_mean",
 }
+OF_STRESS = {"mean_stress", "alternating", "margin", "damage"}  # numbers of a peak
 JUMP_FROM = 0.05  # relative change between two models from which a jump is looked for
 LAST = 3e-3  # relative, of frequencies: the last digits of a model; a usual damping ratio
 HALVINGS = 4  # of their difference: the change of a steep number falls to some sixteenth
@@ -364,6 +365,48 @@ def at_peak(case: Case, peak: Peak, stress: NodeStress | None = None) -> Numbers
     names = OF_MOTION | (OF_CONTACT if case.scene.liner.law.touches else {})
     of_motion = {name: values[key] for name, key in names.items() if key in values}
     return of_motion | (stress_of(run, stress) if stress else {})
+
+
+def at_node(stress: Mapping[str, Any], speed: int) -> NodeStress | None:
+    """The stress over reduced displacements at the worst node of a speed; None if not told.
+
+    ``stress``: as ``workflow.stress.write`` found it.
+    """
+    sigma, fatigue = stress["speeds"][speed].get("sigma"), stress["fatigue"]
+    return sigma and NodeStress(np.array(sigma), fatigue and Fatigue.model_validate(fatigue))
+
+
+def mesh_errors(stress: Mapping[str, Any], speed: int) -> Numbers:
+    """Relative errors by the mesh there; that of the damage follows from the margin's."""
+    errors, k = stress["speeds"][speed]["mesh"], (stress["fatigue"] or {}).get("slope_k")
+    return errors | ({"damage": (1 - errors["margin"]) ** -k - 1} if k else {})
+
+
+def through(at: NodeStress | None, T: NDArray[np.float64] | None) -> NodeStress | None:
+    """The same over displacements u' (n',) of another model, u = T u'; the same without T."""
+    if at is None or T is None:
+        return at
+    return NodeStress(np.vstack([at.sigma[:1], T.T @ at.sigma[1:]]), at.fatigue)
+
+
+def stress_of(run: Run, at: NodeStress) -> Numbers:
+    """Mean and alternating stress, Pa, and margin, of the worst revolution that a run keeps.
+
+    And with a slope of the S-N line the damage of the run, whose states are all recorded.
+    """
+    outcome, record, setup = run.outcome, run.scene.record, run.setup
+    states, samples = outcome.states, record.samples_per_round
+    step = every(known(record.motion, "motion"), samples, setup.omega, setup.Omega)
+    rounds = states.reshape(-1, samples, states.shape[1])[:, step - 1 :: step]
+    strained = outcome.strained[outcome.strained_rounds > 0]
+    of_rounds = map(with_rotation, [*rounds, *strained])
+    slope = at.fatigue and at.fatigue.slope_k
+    return at.worst(of_rounds) | ({"damage": at.damage(with_rotation(states))} if slope else {})
+
+
+def with_rotation(u: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Amplitudes (times, 1 + n) of displacements (times, n): 1, of rotation, before them."""
+    return np.hstack([np.ones((len(u), 1)), u])
 
 
 def _of_other_fineness(

@@ -6,16 +6,14 @@ import numpy as np
 import pytest
 from refused import refused
 
-import rom.between
+import rom.full_model
 from fem.assemble import assemble, over_speeds
 from geometry.base import RPM, Caution
-from rom.between import error_between
 from rom.check import check
-from rom.full_model import solve
+from rom.full_model import error_between, solve
 from rom.model import RomError
-from rom.polynomial import evaluate, interpolate
+from rom.polynomial import basis_speeds, evaluate, interpolate
 from rom.reduce import reduce
-from rom.speeds import basis_speeds
 from workflow.jobs.full_model import assembled
 
 FAST = 1300.0  # rad/s: f1 doubles, and four speeds give 0.4 %
@@ -80,7 +78,7 @@ def test_four_speeds_are_enough_for_the_coarse_blade(coarse_blade, coarse_mesh, 
 
 
 def test_what_no_number_of_speeds_can_give_is_refused(fast, coarse_mesh, monkeypatch):
-    monkeypatch.setattr(rom.between, "MOST", 4)
+    monkeypatch.setattr(rom.full_model, "MOST", 4)
     refused(RomError, assembled, fast, "fast", coarse_mesh.mesh, match="through 4 speeds err")
 
 

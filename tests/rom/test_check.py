@@ -14,8 +14,8 @@ from geometry.tip import EDGES
 from rom.check import RomCheck, check, further_speeds
 from rom.full_model import BENT, FullModel, solve
 from rom.model import RomError
+from rom.polynomial import basis_speeds, check_speeds, node_polynomial
 from rom.reduce import reduce
-from rom.speeds import basis_speeds, check_speeds, node_polynomial
 
 EVEN = np.linspace(0, 650, 17)
 JOINED = "speeds", "omega", "residuals", "compliance", "tip"  # the second order is not known here

@@ -68,8 +68,8 @@ def pair_of(name, folder):
     """Both models of a blade on one mesh of 5 mm."""
     from fem.assemble import assemble
     from geometry.mesh import build_mesh
+    from rom.polynomial import basis_speeds
     from rom.reduce import reduce
-    from rom.speeds import basis_speeds
 
     values = Blade.load(BLADES / f"{name}.yaml").model_dump(exclude_unset=True)
     mesh, models = folder / "blade.msh", []

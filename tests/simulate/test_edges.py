@@ -11,8 +11,7 @@ from geometry.hats import hats
 from geometry.tip import EDGES
 from rom.coarser import coarser
 from rom.reduce import reduce
-from simulate.errors.beyond_linear import BEYOND, SecondOrder
-from simulate.errors.model_errors import ModelError
+from simulate.errors.model_errors import BEYOND, ModelError, SecondOrder
 from simulate.marching.trend import trend
 from simulate.scene import Casing
 from simulate.signals import spectrum

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from made_sweeps import F1, STIFFENING, made_rom
 
-from rom.speeds import basis_speeds
+from rom.polynomial import basis_speeds
 from simulate.sweeps.crossings import critical, crossing
 
 TOP = 0.4  # of the made model, over f1(0)

@@ -60,7 +60,7 @@ def assembled(name: str, size: float) -> tuple[Blade, Matrices, Facets]:
     """A blade on elements of ``size``, mm, its matrices, and the facets of its tip."""
     from fem.assemble import assemble
     from geometry.mesh import build_mesh
-    from rom.speeds import basis_speeds
+    from rom.polynomial import basis_speeds
 
     values = Blade.load(BLADES / f"{name}.yaml").model_dump(exclude_unset=True)
     blade = check_settings(Blade, values | {"mesh": {"element_size_mm": size}}, name)

@@ -40,7 +40,7 @@ ASSEMBLE = """
 import sys
 from fem.assemble import assemble
 from geometry.blade import Blade
-from rom.speeds import basis_speeds
+from rom.polynomial import basis_speeds
 blade = Blade.load(sys.argv[1])
 speeds = basis_speeds(blade.basis, blade.top_speed)
 assemble(blade, "coarse", sys.argv[2], speeds).save(sys.argv[3])

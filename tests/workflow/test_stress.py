@@ -14,9 +14,18 @@ from geometry.base import ProvenanceError
 from geometry.blade import Fatigue
 from rom.coarser import coarser
 from simulate.errors.model_errors import ModelError
-from simulate.errors.stressed import at_node, mesh_errors, stress_of, through, with_rotation
 from simulate.scene import GROWING
-from simulate.sweeps.peak_results import case_of, results, to_march, worst_stressed
+from simulate.sweeps.peak_results import (
+    at_node,
+    case_of,
+    mesh_errors,
+    results,
+    stress_of,
+    through,
+    to_march,
+    with_rotation,
+    worst_stressed,
+)
 from workflow import stress as job
 from workflow.shapes import Shapes, motion, stresses
 

@@ -9,7 +9,7 @@ from made_sweeps import made_rom
 
 from geometry.base import write_json
 from geometry.tip import EDGES
-from simulate.errors.beyond_linear import BEYOND
+from simulate.errors.model_errors import BEYOND
 from simulate.errors.neighbour import ONE_MOTION, TWO_MOTIONS
 from simulate.scene import DYING_OUT, GROWING, TRENDS
 from simulate.sweeps.crossings import critical

@@ -4,8 +4,7 @@ from typing import Any
 
 from geometry.base import Say
 from rom.model import Rom
-from simulate.errors.beyond_linear import SecondOrder
-from simulate.errors.model_errors import ModelErrors
+from simulate.errors.model_errors import ModelErrors, SecondOrder
 from simulate.sweeps.dataset import Sweep, require_rom
 from simulate.sweeps.peak_results import of_sweep, results, worst_stressed
 

@@ -9,9 +9,8 @@ from fem.second_order import SecondOrder
 from fem.solid import read_solid
 from geometry.base import Say, counted, silent
 from geometry.blade import Blade
-from rom.between import resolved
-from rom.full_model import FullModel, solve as solve_at
-from rom.speeds import basis_speeds
+from rom.full_model import FullModel, resolved, solve as solve_at
+from rom.polynomial import basis_speeds
 
 
 def assemble(blade: str, mesh: str, matrices: str, tell: Say) -> None:
@@ -25,7 +24,7 @@ def assembled(blade: Blade, name: str, mesh: str | Path, say: Say = silent) -> M
     """M, S and K(Omega) at the speeds of the basis, and at more where K(Omega) needs them.
 
     ``name``: of the blade, for the provenance. Raises the errors of ``fem.assemble.over_speeds``
-    and ``rom.between.resolved``.
+    and ``rom.full_model.resolved``.
     """
     speeds = basis_speeds(blade.basis, blade.top_speed).tolist()
     fom, states = over_speeds(blade, name, mesh, speeds)

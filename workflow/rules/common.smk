@@ -20,7 +20,7 @@ from geometry.base import (
     sources_of,
     yaml_file,
 )
-from rom.speeds import basis_speeds, check_speeds
+from rom.polynomial import basis_speeds, check_speeds
 from workflow.many.design import Design
 from simulate.scene import Scene, fault_of_blade, own_laws
 from simulate.scene.casing import CASING

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
-from geometry.base import SettingsError, checked, shifted
+from geometry.base import Fault, SettingsError, checked, require, shifted
 from simulate.scene.law import Unloading
 from simulate.scene.tables import Points, from_csv
 
@@ -58,25 +58,36 @@ class Curve(Points):
     @checked
     def _monotone(self) -> None:
         strain, stress = np.array(self.strain), np.array(self.stress_Pa)
-        if strain[0] != 0.0 or stress[0] != 0.0:
-            raise ValueError(
-                f"begins at strain {strain[0]:g}, stress {stress[0]:g} Pa: should begin at 0, 0"
-            )
-        for what, step in (("strain", np.diff(strain) <= 0), ("stress", np.diff(stress) < 0)):
-            if step.any():
-                i = int(step.argmax()) + 2
-                rule = "ascend" if what == "strain" else "not fall"
-                raise ValueError(f"{what} at point {i} (strain {strain[i - 1]:g}): should {rule}")
-        if strain[-1] > 1.0:
-            raise SettingsError(
-                "a rod would be compressed by more than its length: allowed up to 1; of strains in "
-                "per cent the column is strain_percent",
-                key="strain",
-                value=float(strain[-1]),
-                allowed={"le": 1.0},
-            )
-        if stress[-1] == 0.0:
-            raise ValueError("stress is 0 throughout")
+        falls = (
+            ("strain", np.diff(strain) <= 0, "ascend"),
+            ("stress", np.diff(stress) < 0, "not fall"),
+        )
+        require(
+            (
+                strain[0] == 0.0 and stress[0] == 0.0,
+                f"begins at strain {strain[0]:g}, stress {stress[0]:g} Pa: should begin at 0, 0",
+            ),
+            *(
+                (
+                    not step.any(),
+                    f"{what} at point {step.argmax() + 2} (strain {strain[step.argmax() + 1]:g}): "
+                    f"should {rule}",
+                )
+                for what, step, rule in falls
+            ),
+            (
+                strain[-1] <= 1.0,
+                Fault(
+                    "a rod would be compressed by more than its length: allowed up to 1; of "
+                    "strains in per cent the column is strain_percent",
+                    "strain",
+                    float(strain[-1]),
+                    {"le": 1.0},
+                ),
+            ),
+            (stress[-1] != 0.0, "stress is 0 throughout"),
+            kind=SettingsError,
+        )
 
 
 class Tabulated(Unloading):
@@ -93,19 +104,21 @@ class Tabulated(Unloading):
     def _no_steeper_than_the_modulus(self) -> None:
         slopes = np.diff(self.curve.stress_Pa) / np.diff(self.curve.strain)
         steep = slopes > self.modulus * (1 + ROUND_OFF)
-        if steep.any():
-            i = int(steep.argmax())
-            raise ValueError(
+        i, after = int(steep.argmax()), slopes[np.argmax(slopes < self.modulus * (1 - ROUND_OFF)) :]
+        require(
+            (
+                not steep.any(),
                 f"curve: rises by {slopes[i]:.4g} Pa from strain {self.curve.strain[i]:g} to "
                 f"{self.curve.strain[i + 1]:g}, steeper than it unloads: allowed up to E = "
-                f"{self.modulus:.4g} Pa"
-            )
-        after = slopes[np.argmax(slopes < self.modulus * (1 - ROUND_OFF)) :]
-        if np.any(after >= self.modulus * (1 - ROUND_OFF)):
-            raise ValueError(
+                f"{self.modulus:.4g} Pa",
+            ),
+            (
+                np.all(after < self.modulus * (1 - ROUND_OFF)),
                 f"curve: never yields, or rises along E = {self.modulus:.4g} Pa after it has "
-                f"yielded: raise E above the slopes of the curve"
-            )
+                f"yielded: raise E above the slopes of the curve",
+            ),
+            kind=SettingsError,
+        )
 
     @property
     def parameters(self) -> Parameters:
