@@ -171,10 +171,12 @@ def _sorted(
     solids, faces, others = [], {}, Counter()
     for values in archive.elem:
         key, nodes = int(values[TYPE]), _rows(values[HEADER:], row, absent=0)
-        if key not in types:
-            raise MeshError(
-                f"element {values[NUMBER]} has type {key}, which no ET defines: {EXPORT}"
+        require(
+            (
+                key in types,
+                f"element {values[NUMBER]} has type {key}, which no ET defines: {EXPORT}",
             )
+        )
         category = categories[key]
         if category in (BRICK, TETRAHEDRON):
             solids.append(_solid(values, nodes, category))

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import make_interp_spline
 
-from geometry.base import MeshError
+from geometry.base import require
 from geometry.hats import middles
 from geometry.outline import enclosed
 
@@ -61,7 +61,8 @@ class DevelopedTip:
         """Coordinates (n, 2), m, along the chord and ahead of it, of ``points`` (n, 3), m."""
         x, y, z = np.asarray(points, dtype=float).T
         theta = np.angle((x + 1j * y) * np.exp(-1j * self.theta))
-        return self._turned(np.column_stack([self.radius * theta, z]))
+        flat = np.column_stack([self.radius * theta, z])
+        return flat @ np.column_stack([self.chord, [self.chord[1], -self.chord[0]]])
 
     def xi(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Chord fraction (n,) of ``points`` (n, 3), m."""
@@ -122,12 +123,14 @@ class DevelopedTip:
         MeshError
             When the tip has no two edges.
         """
-        if not self.has_two_edges:
-            raise MeshError(
+        require(
+            (
+                self.has_two_edges,
                 "a circle about the engine axis meets the outline of the tip more than twice, so "
                 "that it has no edge behind and ahead; allowed 1",
-                key="interface.across",
-            )
+            ),
+            key="interface.across",
+        )
         x, y, z = np.asarray(points, dtype=float).T
         theta = np.angle((x + 1j * y) * np.exp(-1j * self.theta)) + self.theta
         behind, ahead = self.at_z(z)
@@ -149,9 +152,6 @@ class DevelopedTip:
         """Mean thickness over the chord: area within the outline over the square of the chord."""
         area = abs(enclosed(*self.developed(cartesian(self.outline)).T))
         return float(area / (self.high - self.low) ** 2)
-
-    def _turned(self, flat: NDArray) -> NDArray:
-        return flat @ np.column_stack([self.chord, [self.chord[1], -self.chord[0]]])
 
     def _sides(self, xi: NDArray) -> NDArray:
         """Both sides (2, n, 3) in r, theta, z: first the one behind in rotation, then the other."""
@@ -195,11 +195,13 @@ def _cross(values: NDArray, flat: NDArray, chord: NDArray, stations: NDArray) ->
     for x in low + stations * (high - low):
         before = along < x
         (i,) = np.nonzero(before != np.roll(before, -1))
-        if len(i) != 2:
-            raise MeshError(
+        require(
+            (
+                len(i) == 2,
                 f"the outline of the tip folds over its chord: a line across it meets {len(i)} "
-                f"sides, not two; give the facets of one plain tip"
+                f"sides, not two; give the facets of one plain tip",
             )
+        )
         j = (i + 1) % len(along)
         f = (x - along[i]) / (along[j] - along[i])
         order = np.argsort(ahead[i] + f * (ahead[j] - ahead[i]))
