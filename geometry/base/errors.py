@@ -96,12 +96,12 @@ def failed(*checks: Check) -> list[str]:
     return [fault for holds, fault in checks if not holds]
 
 
-def require(*checks: Check, kind: type[UserError] = MeshError, **about: Any) -> None:
+def require(*checks: Check, kind: Callable[..., Exception] = MeshError, **about: Any) -> None:
     """Refuse by the first fault whose check does not hold.
 
     Parameters
     ----------
-    kind, **about : of the error that is raised, as of ``UserError``.
+    kind, **about : of the error that is raised, as of ``UserError``; a ``ValueError`` has no more.
     """
     if faults := failed(*checks):
         raise kind(faults[0], **about)
