@@ -10,7 +10,7 @@ from scipy.sparse import csr_matrix
 
 from geometry.base import Provenance, require
 from geometry.stored import Stored, frozen, stored
-from geometry.taper import slope_of_tip
+from geometry.tip import slope_of_tip
 
 CODE = ("fem.assemble",)  # module that computes its numbers; the mesh has a hash of its own
 

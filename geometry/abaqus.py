@@ -13,8 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from geometry.base import MeshError, number, require, shown
-from geometry.cards import Card, read_cards
-from geometry.deck_physics import physics_of
+from geometry.cards import Card, physics_of, read_cards
 from geometry.file_mesh import FileMesh, as_tetrahedra
 from geometry.split import KINDS, NODES, Block
 

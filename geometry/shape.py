@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geometry.base import MeshError, ProvenanceError, anew, intact, require
-from geometry.file_physics import Physics
+from geometry.file_mesh import Physics
 
 SAMPLES = 200  # points on each curve
 MESH = b"$MeshFormat\n"  # begins a mesh of gmsh
