@@ -10,7 +10,7 @@ from scipy.optimize import root
 from fem.cholesky import Cholesky
 from fem.prestress import nonlinear_states
 from fem.solid import Solid, read_solid
-from geometry.base import RPM, MeshError
+from geometry.base import RPM, require
 from geometry.blade import Blade
 from geometry.mesh import MeshSummary, build_mesh, write_moved
 
@@ -73,13 +73,15 @@ def at_rest(solid: Solid, Omega: float) -> NDArray[np.float64]:
     options = {"fatol": CLOSED, "maxiter": ROUNDS, "jac_options": {"alpha": -size}}
     solution = root(residual, x.ravel(), method="anderson", options=options | {"line_search": None})
     closed = abs(solution.fun).max()
-    if not solution.success:
-        raise MeshError(
+    require(
+        (
+            solution.success,
             f"the shape at rest is not found: after {ROUNDS} steps {closed:.0e} of the blade's "
             f"size is left (allowed {CLOSED:.0e}); is it the speed of the coordinates, in rpm?",
-            key="geometry_at_rpm",
-            value=Omega * RPM,
-        )
+        ),
+        key="geometry_at_rpm",
+        value=Omega * RPM,
+    )
     print(
         f"at rest: nodes moved by up to {1e3 * np.linalg.norm(u, axis=1).max():.4g} mm; at "
         f"{Omega * RPM:g} rpm they are back to {closed:.0e} of the blade's size"

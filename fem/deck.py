@@ -11,7 +11,7 @@ from fem.interface_operator import on_patches
 from fem.matrix_files import FileMatrix
 from geometry.base import MeshError, about, require
 from geometry.blade import MeshFile
-from geometry.file_physics import UNITS
+from geometry.file_mesh import UNITS
 from geometry.frame import rotation, to_blade
 from geometry.readers import read_mesh_file
 from geometry.root_and_tip import root_and_tip

@@ -27,7 +27,7 @@ from dolfinx.plot import vtk_mesh
 
 from fem.fatigue import von_mises
 from fem.solid import Solid, green_lagrange, read_solid, small_strain
-from geometry.base import SettingsError, write_whole
+from geometry.base import SettingsError, require, write_whole
 from geometry.blade import Blade, Stress as Asked
 from geometry.facets import normals, shape_functions
 from geometry.frame import axes
@@ -337,12 +337,15 @@ def airfoil(solid: Solid, asked: Asked) -> tuple[NDArray[np.bool_], float]:
     settled = away(solid, distance)
     if not sharp and not asked.away_mm:
         settled[solid.V.dofmap.list[cells_of(solid, np.flatnonzero(solid.clamped))]] = False
-    if not settled.any():
-        raise SettingsError(
+    require(
+        (
+            settled.any(),
             "no node of the mesh is farther from the clamp, and away from the contact",
-            key="stress.away_mm",
-            value=1e3 * distance,
-        )
+        ),
+        kind=SettingsError,
+        key="stress.away_mm",
+        value=1e3 * distance,
+    )
     return settled, distance
 
 
@@ -427,30 +430,32 @@ def grid(
     e = np.cos(np.radians(angle)) * first + np.sin(np.radians(angle)) * second
     places = foot + 1e-3 * gauge.length_mm * (middles(PLACES)[:, None] - 0.5) * e
     under, feet = _closest(surface, places)
-    for refused, why in (
+    off, at = np.linalg.norm(place - foot), f"gauge {gauge.name!r}, at {[*gauge.at]}"
+    require(
         (
-            (off := np.linalg.norm(place - foot)) > FARTHEST,
-            f"at {[*gauge.at]}: {1e3 * off:.3g} mm from the surface; allowed {1e3 * FARTHEST:g} mm",
+            off <= FARTHEST,
+            f"{at}: {1e3 * off:.3g} mm from the surface; allowed {1e3 * FARTHEST:g} mm",
         ),
         (
-            first @ direction <= LEAST * np.linalg.norm(direction),
-            f"direction {[*gauge.direction]}: across the surface there; give one along it",
+            first @ direction > LEAST * np.linalg.norm(direction),
+            f"gauge {gauge.name!r}, direction {[*gauge.direction]}: across the surface there; give "
+            "one along it",
         ),
         (
-            not away(solid, places=feet).all(),
-            f"at {[*gauge.at]}: nearer to clamp or tip than {AWAY:.0%} of the blade's length, "
-            "where the stress does not converge with mesh and patches; allowed farther",
+            away(solid, places=feet).all(),
+            f"{at}: nearer to clamp or tip than {AWAY:.0%} of the blade's length, where the stress "
+            "does not converge with mesh and patches; allowed farther",
         ),
         (
             # no place farther from the surface than from its neighbour, none round an edge
-            np.linalg.norm(places - feet, axis=1).max() > 1e-3 * gauge.length_mm / PLACES
-            or (normals(facets[under], points) @ normal).min() <= 0,
-            f"length_mm {gauge.length_mm:g}: its grid leaves the surface; allowed shorter or "
-            "farther from the edge",
+            np.linalg.norm(places - feet, axis=1).max() <= 1e-3 * gauge.length_mm / PLACES
+            and (normals(facets[under], points) @ normal).min() > 0,
+            f"gauge {gauge.name!r}, length_mm {gauge.length_mm:g}: its grid leaves the surface; "
+            "allowed shorter or farther from the edge",
         ),
-    ):
-        if refused:
-            raise SettingsError(f"gauge {gauge.name!r}, {why}", key="record.gauges")
+        kind=SettingsError,
+        key="record.gauges",
+    )
     a, b, c = points[facets[under, :3]].transpose(1, 0, 2)
     edges = np.stack([b - a, c - a], axis=2)
     local = (np.linalg.pinv(edges) @ (feet - a)[..., None])[..., 0]
@@ -466,6 +471,11 @@ def _closest(surface: pv.PolyData, points: NDArray[np.float64]) -> tuple[Any, An
 def dofs_at(coordinates: NDArray, points: NDArray) -> NDArray[np.int64]:
     """DoFs (points, 3) of the nodes of ``coordinates`` (nodes, 3), m, at ``points`` (points, 3)."""
     distance, node = cKDTree(coordinates).query(points)
-    if distance.max() > 1e-9:
-        raise ValueError(f"nodes and mesh differ by {distance.max():.1e} m: rebuild what is older")
+    require(
+        (
+            distance.max() <= 1e-9,
+            f"nodes and mesh differ by {distance.max():.1e} m: rebuild what is older",
+        ),
+        kind=ValueError,
+    )
     return 3 * node[:, None].astype(np.int64) + np.arange(3)

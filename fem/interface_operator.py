@@ -26,7 +26,7 @@ import basix
 
 from fem.matrices import InterfaceOperator
 from fem.solid import Solid
-from geometry.base import MeshError
+from geometry.base import require
 from geometry.blade import Blade
 from geometry.facets import shape_functions, shape_gradients
 from geometry.hats import hat_nodes, hats
@@ -76,7 +76,14 @@ def on_patches(
     require_patches(len(xi), tip.xi(points[np.unique(facets)]))
     at, dA, values = quadrature(points[facets])
     at_xi = tip.xi(at.reshape(-1, 3))
-    _require_on_chord(at_xi)
+    beyond = max(-at_xi.min(), at_xi.max() - 1)
+    require(
+        (
+            beyond <= BEYOND,
+            f"a facet of the tip bulges {100 * beyond:.2g} % of the chord beyond its outline; "
+            f"allowed {100 * BEYOND:g} %: refine the mesh of the tip",
+        )
+    )
     phi, e, line = hats(at_xi, xi), directions(at.reshape(-1, 3)), tip.camber_line()
     if across == 2:
         there, eta = tip.across(at.reshape(-1, 3))
@@ -134,12 +141,3 @@ def _assembled(rows: list[csr_matrix], free: NDArray) -> csr_matrix:
     S.eliminate_zeros()
     S.sort_indices()
     return S
-
-
-def _require_on_chord(xi: NDArray) -> None:
-    beyond = max(-xi.min(), xi.max() - 1)
-    if beyond > BEYOND:
-        raise MeshError(
-            f"a facet of the tip bulges {100 * beyond:.2g} % of the chord beyond its outline; "
-            f"allowed {100 * BEYOND:g} %: refine the mesh of the tip"
-        )

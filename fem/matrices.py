@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_matrix
 
-from geometry.base import Provenance
+from geometry.base import Provenance, require
 from geometry.stored import Stored, frozen, stored
-from geometry.taper import slope_of_tip
+from geometry.tip import slope_of_tip
 
 CODE = ("fem.assemble",)  # module that computes its numbers; the mesh has a hash of its own
 
@@ -117,8 +117,13 @@ class Matrices(Constants, Stored):
             When a speed is not among them.
         """
         distance = abs(self.speeds - np.reshape(speeds, (-1, 1)))
-        if distance.min(axis=1).max() > 1e-12 * self.speeds[-1]:
-            raise ValueError(f"matrices at {self.speeds} rad/s hold none at some of {speeds}")
+        require(
+            (
+                distance.min(axis=1).max() <= 1e-12 * self.speeds[-1],
+                f"matrices at {self.speeds} rad/s hold none at some of {speeds}",
+            ),
+            kind=ValueError,
+        )
         kept = distance.argmin(axis=1)
         return replace(
             self,
@@ -136,13 +141,18 @@ class Matrices(Constants, Stored):
         ValueError
             If not; the message says which.
         """
-        if self.S.shape[0] not in (3 * len(self.xi), 6 * len(self.xi)) or self.M.shape[
-            0
-        ] != 3 * len(self.coordinates):
-            raise ValueError("xi or coordinates: not of three DoFs each")
-        if len(self.K) != len(self.speeds):
-            raise ValueError(f"K: {len(self.K)} matrices at {len(self.speeds)} speeds")
-        for name in ("u_static", "residuals"):
-            finite = np.isfinite(getattr(self, name))
-            if finite.any() and not finite.all():  # of matrices made elsewhere: nan throughout
-                raise ValueError(f"{name}: not finite")
+        finite = {name: np.isfinite(getattr(self, name)) for name in ("u_static", "residuals")}
+        require(
+            (
+                self.S.shape[0] in (3 * len(self.xi), 6 * len(self.xi))
+                and self.M.shape[0] == 3 * len(self.coordinates),
+                "xi or coordinates: not of three DoFs each",
+            ),
+            (
+                len(self.K) == len(self.speeds),
+                f"K: {len(self.K)} matrices at {len(self.speeds)} speeds",
+            ),
+            # of matrices made elsewhere: nan throughout
+            *((of.all() or not of.any(), f"{name}: not finite") for name, of in finite.items()),
+            kind=ValueError,
+        )

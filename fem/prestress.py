@@ -15,7 +15,7 @@ from dolfinx.fem.petsc import LinearProblem, NonlinearProblem
 from fem.cholesky import Cholesky
 from fem.matrices import Prestressed
 from fem.solid import Solid, SymmetricForm, green_lagrange, small_strain
-from geometry.base import RPM, UserError
+from geometry.base import RPM, UserError, require
 
 DIRECT = {"ksp_type": "preonly", "pc_type": "cholesky", "pc_factor_mat_solver_type": "mumps"}
 NEWTON = {"snes_type": "newtonls", "snes_linesearch_type": "none", "snes_max_it": 25}
@@ -216,13 +216,16 @@ def _solve(problem: NonlinearProblem, speed: float, load: float, last: float) ->
     except PETSc.Error as error:
         failure = str(error).splitlines()[-1]
     reached = snes.getFunctionNorm() / load
-    if failure or not reached <= RESIDUAL_TOLERANCE:
-        raise EquilibriumError(
+    require(
+        (
+            not failure and reached <= RESIDUAL_TOLERANCE,
             f"no static equilibrium at {RPM * speed:.6g} rpm (the last at {RPM * last:.6g} rpm): "
             f"after {snes.getIterationNumber()} Newton steps the residual is {reached:.1e} of the "
             f"centrifugal load (wanted {RESIDUAL_TOLERANCE:.0e}; {failure}); lower the highest "
-            f"speed or use prestress: linear"
-        )
+            f"speed or use prestress: linear",
+        ),
+        kind=EquilibriumError,
+    )
     # of the last tangent factorised
     _require_stable(snes.getKSP().getPC().getFactorMatrix().getMumpsInfog(12), speed, last)
     return reached
@@ -230,9 +233,12 @@ def _solve(problem: NonlinearProblem, speed: float, load: float, last: float) ->
 
 def _require_stable(negative: int, speed: float, last: float) -> None:
     """Refuse a tangent with negative pivots: directions in which the energy decreases."""
-    if negative > 0:
-        raise EquilibriumError(
+    require(
+        (
+            negative <= 0,
             f"the static equilibrium found at {RPM * speed:.6g} rpm is not stable ({negative} "
             f"negative eigenvalues of K; the last stable one is at {RPM * last:.6g} rpm); lower "
-            "the highest speed"
-        )
+            "the highest speed",
+        ),
+        kind=EquilibriumError,
+    )

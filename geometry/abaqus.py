@@ -13,8 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from geometry.base import MeshError, number, require, shown
-from geometry.cards import Card, read_cards
-from geometry.deck_physics import physics_of
+from geometry.cards import Card, physics_of, read_cards
 from geometry.file_mesh import FileMesh, as_tetrahedra
 from geometry.split import KINDS, NODES, Block
 
@@ -178,7 +177,6 @@ def _whole(text: str, line: int) -> int:
 
 
 def _check(cards: list[Card]) -> None:
-    keywords = [card.keyword for card in cards]
     for card in (card for card in cards if card.keyword in (*REFUSED, *READ)):
         if card.keyword in REFUSED:
             raise MeshError(REFUSED[card.keyword].format(f"*{card.keyword}"))
@@ -187,10 +185,10 @@ def _check(cards: list[Card]) -> None:
                 f"*{card.keyword} with {option}: {ELSEWHERE[option]}: export the mesh itself",
                 line=card.line,
             )
-    moved = any(card.keyword == "INSTANCE" and card.rows for card in cards)
+    parts, instances = ([c for c in cards if c.keyword == of] for of in ("PART", "INSTANCE"))
     require(
         (
-            keywords.count("PART") < 2 and keywords.count("INSTANCE") < 2 and not moved,
+            len(parts) < 2 and len(instances) < 2 and not any(card.rows for card in instances),
             "has several parts or a moved instance: export a deck without parts",
         )
     )

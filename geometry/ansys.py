@@ -19,8 +19,7 @@ from mapdl_archive.elements import ETYPE_MAP
 from numpy.typing import NDArray
 
 from geometry.base import MeshError, number, require
-from geometry.file_mesh import FileMesh, as_tetrahedra, require_all
-from geometry.file_physics import FileMaterial, Physics, agree
+from geometry.file_mesh import FileMaterial, FileMesh, Physics, agree, as_tetrahedra, require_all
 from geometry.split import Block
 
 FACE, BRICK, TETRAHEDRON = 3, 4, 5  # values of ETYPE_MAP, by the number of an element type
@@ -171,10 +170,12 @@ def _sorted(
     solids, faces, others = [], {}, Counter()
     for values in archive.elem:
         key, nodes = int(values[TYPE]), _rows(values[HEADER:], row, absent=0)
-        if key not in types:
-            raise MeshError(
-                f"element {values[NUMBER]} has type {key}, which no ET defines: {EXPORT}"
+        require(
+            (
+                key in types,
+                f"element {values[NUMBER]} has type {key}, which no ET defines: {EXPORT}",
             )
+        )
         category = categories[key]
         if category in (BRICK, TETRAHEDRON):
             solids.append(_solid(values, nodes, category))

@@ -6,7 +6,16 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Discriminator, Field, Tag
 
-from geometry.base import RPM, Settings, SettingsError, SettingsFile, checked, file_hash, one_of
+from geometry.base import (
+    RPM,
+    Settings,
+    SettingsError,
+    SettingsFile,
+    checked,
+    file_hash,
+    one_of,
+    require,
+)
 
 RPM_PER_HZ = 60.0
 Length = Annotated[float, Field(gt=0, le=1e4)]
@@ -25,15 +34,18 @@ class Section(Settings):
     @checked
     def _is_thin(self) -> None:
         share = self.thickness_mm / self.chord_mm
-        if share > MOST_THICKNESS:
-            raise SettingsError(
+        require(
+            (
+                share <= MOST_THICKNESS,
                 f"{100 * share:.0f} % of the chord of {self.chord_mm:g} mm; allowed up to "
                 f"{100 * MOST_THICKNESS:.0f} %: is one of them in another unit, or ten times what "
                 "was meant?",
-                key="thickness_mm",
-                value=self.thickness_mm,
-                allowed={"le": MOST_THICKNESS * self.chord_mm},
-            )
+            ),
+            kind=SettingsError,
+            key="thickness_mm",
+            value=self.thickness_mm,
+            allowed={"le": MOST_THICKNESS * self.chord_mm},
+        )
 
 
 class Sections(Settings):
@@ -340,14 +352,17 @@ class Fatigue(Settings):
 
     @checked
     def _in_order(self) -> None:
-        if not self.endurance_MPa <= self.yield_MPa <= self.ultimate_MPa:
-            raise SettingsError(
+        require(
+            (
+                self.endurance_MPa <= self.yield_MPa <= self.ultimate_MPa,
                 f"allowed from endurance_MPa = {self.endurance_MPa:g} to ultimate_MPa = "
                 f"{self.ultimate_MPa:g}",
-                key="yield_MPa",
-                value=self.yield_MPa,
-                allowed={"ge": self.endurance_MPa, "le": self.ultimate_MPa},
-            )
+            ),
+            kind=SettingsError,
+            key="yield_MPa",
+            value=self.yield_MPa,
+            allowed={"ge": self.endurance_MPa, "le": self.ultimate_MPa},
+        )
 
 
 class Stress(Settings):
@@ -412,14 +427,18 @@ class Blade(SettingsFile):
 
     @checked
     def _mesh_of_its_source(self) -> None:
-        if self.mesh is None and self.mesh_file is None:
-            raise SettingsError(
-                f"missing; {self.source_key} needs it: `mesh: {{element_size_mm: ...}}`", key="mesh"
-            )
-        if self.mesh is not None and self.mesh_file is not None:
-            raise SettingsError(
-                "not allowed with mesh_file, whose file is the mesh; remove it", key="mesh"
-            )
+        require(
+            (
+                self.mesh or self.mesh_file,
+                f"missing; {self.source_key} needs it: `mesh: {{element_size_mm: ...}}`",
+            ),
+            (
+                not (self.mesh and self.mesh_file),
+                "not allowed with mesh_file, whose file is the mesh; remove it",
+            ),
+            kind=SettingsError,
+            key="mesh",
+        )
 
     @checked
     def _speed_of_tip(self) -> None:
@@ -430,14 +449,17 @@ class Blade(SettingsFile):
     def _operates_within_its_speeds(self) -> None:
         given = {"geometry_at": self.geometry_at_rpm or 0.0}
         for name, rpm in (self.operating_rpm | given).items():
-            if rpm / RPM > self.top_speed:
-                raise SettingsError(
+            require(
+                (
+                    rpm / RPM <= self.top_speed,
                     f"above the highest speed, {self.top_speed * RPM:.6g} rpm "
                     f"(max_speed_rpm): raise that",
-                    key=f"{name}_rpm",
-                    value=rpm,
-                    allowed={"le": self.top_speed * RPM},
-                )
+                ),
+                kind=SettingsError,
+                key=f"{name}_rpm",
+                value=rpm,
+                allowed={"le": self.top_speed * RPM},
+            )
 
     @checked
     def _patches_or_points(self) -> None:

@@ -119,8 +119,7 @@ def import_cad(cad: Cad, path: str | Path) -> Shape:
     step = _checked_file(cad, Path(path))
     solid = _import(Path(path))
     _check_manifold(cad, solid)
-    curves = [tag for _, tag in gmsh.model.getEntities(1)]
-    points = np.vstack([sampled(curve) for curve in curves]) / cad.metres
+    points = np.vstack([sampled(curve) for _, curve in gmsh.model.getEntities(1)]) / cad.metres
     declared = f"the file itself declares {cad.unit}: export it anew, to scale"
     to_blade(points, cad, declared if step else "choose another unit")  # checks unit and frame
     groups = _groups(cad, step, solid) if step else {}
@@ -171,11 +170,10 @@ def _import(path: Path) -> int:
 
 def _check_manifold(cad: Cad, solid: int) -> None:
     """Check that every edge bounds two faces (a seam: one face twice), with outward normals."""
-    faces = gmsh.model.getBoundary([(3, solid)], oriented=False)
     edges = Counter(
         tag
-        for face in faces
-        for _, tag in gmsh.model.getBoundary([face], combined=False, oriented=False)
+        for face in faces_of(solid)
+        for _, tag in gmsh.model.getBoundary([(2, face)], combined=False, oriented=False)
     )
     for edge, count in edges.items():
         if count != 2 and gmsh.model.occ.getMass(1, edge) > ROUND_OFF:  # a pole has no length

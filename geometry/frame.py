@@ -6,7 +6,7 @@ x is radial, y in the sense of rotation, z downstream.
 import numpy as np
 from numpy.typing import NDArray
 
-from geometry.base import MeshError
+from geometry.base import require
 from geometry.blade import Frame, SourceFile
 from geometry.tetrahedra import MIRRORED
 
@@ -42,8 +42,29 @@ def to_blade(
         When the length is not in ``LENGTHS``, or the blade is not along ``frame.radial``.
     """
     placed = np.asarray(points) @ axes(source).T
-    _check_length(placed, source, remedy)
-    _check_angle(placed, source)
+    length = float(np.ptp(placed, axis=0).max())
+    require(
+        (
+            LENGTHS[0] <= length <= LENGTHS[1],
+            f"the blade is {length:.3g} m long with unit: {source.unit}; "
+            f"allowed {LENGTHS[0]:g} to {LENGTHS[1]:g} m: {remedy}",
+        ),
+        allowed=LENGTHS,
+    )
+    # the mean angle from `radial`: a wrong axis gives a quarter or half turn
+    x, y, _ = placed.mean(axis=0)
+    angle = float(np.arctan2(y, x))
+    quarter = np.round(angle / (np.pi / 2)) * np.pi / 2
+    near = _axis(rotation(source.frame).T @ [np.cos(quarter), np.sin(quarter), 0])
+    require(
+        (
+            abs(np.degrees(angle)) <= MOST_ANGLE,
+            f"the blade stands {np.degrees(angle):.0f} degrees from frame.radial "
+            f"{source.frame.radial} about the engine axis: correct frame.downstream if it is not "
+            f"{source.frame.downstream}; if it is, choose frame.radial: {near}",
+        ),
+        allowed=near,
+    )
     return placed
 
 
@@ -77,28 +98,3 @@ def _unit(axis: str) -> NDArray:
 def _axis(unit: NDArray) -> str:
     i = int(np.argmax(np.abs(unit)))
     return ("-" if unit[i] < 0 else "") + "xyz"[i]
-
-
-def _check_length(placed: NDArray, source: SourceFile, remedy: str) -> None:
-    length = float(np.ptp(placed, axis=0).max())
-    if not LENGTHS[0] <= length <= LENGTHS[1]:
-        raise MeshError(
-            f"the blade is {length:.3g} m long with unit: {source.unit}; "
-            f"allowed {LENGTHS[0]:g} to {LENGTHS[1]:g} m: {remedy}",
-            allowed=LENGTHS,
-        )
-
-
-def _check_angle(placed: NDArray, source: SourceFile) -> None:
-    """Check the mean angle from `radial`: a wrong axis gives a quarter or half turn."""
-    x, y, _ = placed.mean(axis=0)
-    angle = float(np.arctan2(y, x))
-    if abs(np.degrees(angle)) > MOST_ANGLE:
-        quarter = np.round(angle / (np.pi / 2)) * np.pi / 2
-        near = rotation(source.frame).T @ [np.cos(quarter), np.sin(quarter), 0]
-        raise MeshError(
-            f"the blade stands {np.degrees(angle):.0f} degrees from frame.radial "
-            f"{source.frame.radial} about the engine axis: correct frame.downstream if it is not "
-            f"{source.frame.downstream}; if it is, choose frame.radial: {_axis(near)}",
-            allowed=_axis(near),
-        )

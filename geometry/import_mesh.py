@@ -268,13 +268,14 @@ def _require_positive(found: NDArray, middles: NDArray, numbers: NDArray, remedy
 
     ``found`` (n,): smallest over largest; ``middles`` (n, 3), m, in the blade's frame.
     """
-    if not np.all(found > 0):
-        worst = int(found.argmin())
-        if np.all(found < 0):
-            remedy = "all are: reverse the order of their nodes, or the axis that is mirrored"
-        raise MeshError(
+    worst = int(found.argmin())
+    mirrored = "all are: reverse the order of their nodes, or the axis that is mirrored"
+    require(
+        (
+            np.all(found > 0),
             f"{np.sum(~(found > 0))} of {len(found)} cells are inside out or flat; the worst "
             f"(Jacobian ratio {found[worst]:.2f}, where it is integrated) is at "
             f"{_place(middles[worst])} mm in the blade's frame, of cell {numbers[worst]} of the "
-            f"file: {remedy}"
+            f"file: {mirrored if np.all(found < 0) else remedy}",
         )
+    )

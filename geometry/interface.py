@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from geometry.base import MeshError
+from geometry.base import require
 from geometry.blade import Interface
 from geometry.facets import nearest_facet, outward, shape_functions
 from geometry.hats import hat_nodes, middles
@@ -35,15 +35,17 @@ def require_patches(n: int, xi: NDArray[np.float64]) -> None:
         If there are more; the message names the number allowed.
     """
     carried = next((k for k in range(n, 1, -1) if _carries(k, xi)), 0)
-    if carried < n:
-        serves = f"allowed up to {carried}, or refine" if carried else "refine"
-        raise MeshError(
+    serves = f"allowed up to {carried}, or refine" if carried else "refine"
+    require(
+        (
+            carried == n,
             "the mesh of the tip is too coarse for so many, fewer than two nodes along the "
             f"chord lie under one of them; {serves} the mesh of the tip",
-            key="interface.patches",
-            value=n,
-            allowed={"le": carried},
-        )
+        ),
+        key="interface.patches",
+        value=n,
+        allowed={"le": carried},
+    )
 
 
 def _carries(n: int, xi: NDArray) -> bool:
@@ -83,9 +85,11 @@ def on_facets(
     on_tip = np.einsum("nk,nkd->nd", values, points[nodes])
     for i, ((_, x), place) in enumerate(zip(nearest, places, strict=True)):
         off = float(np.linalg.norm(on_tip[i] - place))
-        if min(x.min(), 1 - x.sum()) < -OUTSIDE or off > OFF_TIP:
-            raise MeshError(
+        require(
+            (
+                min(x.min(), 1 - x.sum()) >= -OUTSIDE and off <= OFF_TIP,
                 f"interface point {i + 1} lies {1e3 * off:.3g} mm off the tip or beside it; "
-                f"allowed {1e3 * OFF_TIP:g} mm"
+                f"allowed {1e3 * OFF_TIP:g} mm",
             )
+        )
     return nodes, values, on_tip

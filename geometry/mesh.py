@@ -9,7 +9,7 @@ import gmsh
 import numpy as np
 from numpy.typing import NDArray
 
-from geometry.base import MeshError, MeshWarning, WriteError, about, file_hash, whole
+from geometry.base import MeshError, MeshWarning, WriteError, about, file_hash, require, whole
 from geometry.blade import MOST_THICKNESS, Blade, Cad, MeshGeometry, Sections, SectionTable
 from geometry.cad import import_cad
 from geometry.facets import normals
@@ -124,9 +124,9 @@ def build_mesh(
             _check_tip(blade, *facets_of(shape.tip))
         _warn_of_high_root(shape)
         _show_physics(shape, blade)
-        gmsh.model.addPhysicalGroup(3, [shape.solid], name="blade")
-        gmsh.model.addPhysicalGroup(2, shape.root, name="root")
-        gmsh.model.addPhysicalGroup(2, shape.tip, name="tip")
+        groups = {"blade": (3, [shape.solid]), "root": (2, shape.root), "tip": (2, shape.tip)}
+        for name, (dimension, tags) in groups.items():
+            gmsh.model.addPhysicalGroup(dimension, tags, name=name)
         with whole(mesh_path) as temporary:
             summary = _summary(_written(temporary, mesh_path, made_of), cad_volume, blade)
             print(summary.line())
@@ -149,10 +149,13 @@ def write_moved(mesh_path: Path, moved_path: str | Path, places: NDArray[np.floa
         nodes, *_ = gmsh.model.mesh.getNodes()
         for node, place in zip(np.sort(nodes), places, strict=True):
             gmsh.model.mesh.setNode(node, place, [])
-        if not jacobian_ratios().min() > 0:
-            raise MeshError(
-                "cells are inside out at rest: make the elements smaller", key="geometry_at_rpm"
-            )
+        require(
+            (
+                jacobian_ratios().min() > 0,
+                "cells are inside out at rest: make the elements smaller",
+            ),
+            key="geometry_at_rpm",
+        )
         _written(temporary, moved_path, source_of(mesh_path))
 
 
@@ -191,7 +194,15 @@ def _shape(blade: Blade, path: str | Path | None) -> Shape:
 def _check_tip(blade: Blade, points: NDArray, facets: NDArray) -> None:
     """Check that the tip is oriented as that of a compressor and allows the interface."""
     tip = tip_of(facets, points)
-    _check_width(tip)
+    # that of a profile, not a shroud, which is as wide as it is long
+    require(
+        (
+            tip.width() <= MOST_THICKNESS,
+            f"the tip is {100 * tip.width():.0f} % as wide as it is long (allowed "
+            f"{100 * MOST_THICKNESS:.0f} %), as a shroud or a platform: only plain tips are "
+            f"modelled; choose the faces of one, or take the shroud off",
+        )
+    )
     line = cartesian(tip.camber_line())
     _check_sense(line, blade)
     _check_camber(tip, blade)
@@ -202,27 +213,20 @@ def _check_tip(blade: Blade, points: NDArray, facets: NDArray) -> None:
         require_patches(blade.interface.patches, tip.xi(points))
 
 
-def _check_width(tip: DevelopedTip) -> None:
-    """Check that the tip is that of a profile, not a shroud, which is as wide as it is long."""
-    if tip.width() > MOST_THICKNESS:
-        raise MeshError(
-            f"the tip is {100 * tip.width():.0f} % as wide as it is long (allowed "
-            f"{100 * MOST_THICKNESS:.0f} %), as a shroud or a platform: only plain tips are "
-            f"modelled; choose the faces of one, or take the shroud off"
-        )
-
-
 def _check_sense(line: NDArray, blade: Blade) -> None:
     """Check that the leading edge is upstream and ahead; ``line`` (n, 3), m: the camber line."""
     chord = line[-1] - line[0]
-    if np.any(np.diff(line[:, 2]) <= 0):
-        fault = "the camber line of the tip does not run downstream"
-    elif chord[1] > BEHIND * np.linalg.norm(chord):
-        fault = "the upstream end of the tip is behind in the sense of rotation"
-    else:
-        return
-    file = "frame.downstream and frame.rotation"
-    raise MeshError(f"{fault}; check {file if blade.file else 'the stagger of the tip'}")
+    where = "frame.downstream and frame.rotation" if blade.file else "the stagger of the tip"
+    require(
+        (
+            np.all(np.diff(line[:, 2]) > 0),
+            f"the camber line of the tip does not run downstream; check {where}",
+        ),
+        (
+            chord[1] <= BEHIND * np.linalg.norm(chord),
+            f"the upstream end of the tip is behind in the sense of rotation; check {where}",
+        ),
+    )
 
 
 def _check_camber(tip: DevelopedTip, blade: Blade) -> None:
@@ -231,16 +235,17 @@ def _check_camber(tip: DevelopedTip, blade: Blade) -> None:
     Only this check detects a frame with both downstream and rotation reversed. It is not needed for
     a blade given by parameters, nor if listed points on the tip confirm the frame.
     """
-    if not blade.file or blade.interface.points_mm:
-        return
-    height = tip.camber_height()
-    if height < -HOLLOW:
-        raise MeshError(
+    needed = blade.file and not blade.interface.points_mm
+    height = tip.camber_height() if needed else 0.0
+    require(
+        (
+            height >= -HOLLOW,
             f"the hollow side of the tip is behind in the sense of rotation (its camber line is "
             f"{-100 * height:.2g} % of the chord ahead of it), as that of a turbine, which is not "
             f"modelled; if it is a compressor's, frame.downstream and frame.rotation are both "
-            f"reversed"
+            f"reversed",
         )
+    )
 
 
 def _check_speed(line: NDArray, blade: Blade) -> None:
@@ -257,22 +262,25 @@ def _check_count(shape: Shape, size_mm: float) -> None:
     """
     low, high = np.reshape(gmsh.model.getBoundingBox(3, shape.solid), (2, 3))
     length = 1e3 * float(np.max(high - low))
-    if size_mm > length / FEWEST_ALONG:
-        raise MeshError(
+    of_size = {"key": "mesh.element_size_mm", "value": size_mm}
+    require(
+        (
+            size_mm <= length / FEWEST_ALONG,
             f"too large for a blade of {length:.4g} mm: choose {length / FEWEST_ALONG:.2g} or less",
-            key="mesh.element_size_mm",
-            value=size_mm,
-            allowed={"le": length / FEWEST_ALONG},
-        )
+        ),
+        allowed={"le": length / FEWEST_ALONG},
+        **of_size,
+    )
     cells = CELLS_IN_CUBE * gmsh.model.occ.getMass(3, shape.solid) / (size_mm * 1e-3) ** 3
-    if cells > MOST_CELLS:
-        least = 1.05 * size_mm * (cells / MOST_CELLS) ** (1 / 3)  # allowed also when rounded
-        raise MeshError(
+    least = 1.05 * size_mm * (cells / MOST_CELLS) ** (1 / 3)  # allowed also when rounded
+    require(
+        (
+            cells <= MOST_CELLS,
             f"makes some {cells:.1e} cells (allowed {MOST_CELLS:.0e}): choose {least:.2g} or more",
-            key="mesh.element_size_mm",
-            value=size_mm,
-            allowed={"ge": least},
-        )
+        ),
+        allowed={"ge": least},
+        **of_size,
+    )
 
 
 def _warn_of_high_root(shape: Shape) -> None:
@@ -332,21 +340,23 @@ def _check(summary: MeshSummary, blade: Blade) -> None:
     if blade.mesh is None:
         return
     size = f"mesh.element_size_mm: {blade.mesh.element_size_mm:g}"
-    if not summary.smallest_jacobian > 0:
-        raise MeshError(
-            f"{size}: cells stay inside out (Jacobian ratio {summary.smallest_jacobian:.2f}) at "
-            f"faces that are curved too much for it, also when they are moved: choose less, or "
-            f"remove small faces and rounds from the geometry"
-        )
     off = (
         f"{size}: the mesh is {100 * summary.volume_error:+.2g} % off the volume of the geometry, "
         f"{summary.cad_volume:.6e} m3"
     )
-    if not abs(summary.volume_error) <= MOST_MISSED:
-        raise MeshError(
+    require(
+        (
+            summary.smallest_jacobian > 0,
+            f"{size}: cells stay inside out (Jacobian ratio {summary.smallest_jacobian:.2f}) at "
+            f"faces that are curved too much for it, also when they are moved: choose less, or "
+            f"remove small faces and rounds from the geometry",
+        ),
+        (
+            abs(summary.volume_error) <= MOST_MISSED,
             f"{off} (allowed {100 * MOST_MISSED:g} %): choose less, or remove small faces and "
-            f"rounds from the geometry"
-        )
+            f"rounds from the geometry",
+        ),
+    )
     if abs(summary.volume_error) > VOLUME_TOLERANCE:
         warnings.warn(
             f"{off}, at faces that are curved too much for its cells: f1 errs by some as much; "

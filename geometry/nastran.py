@@ -8,7 +8,7 @@ import re
 from pathlib import Path
 
 from geometry.abaqus import INCLUDES, mesh_of
-from geometry.base import MeshError, number, read_text
+from geometry.base import MeshError, number, read_text, require
 from geometry.cards import Card
 from geometry.file_mesh import FileMesh
 
@@ -41,11 +41,13 @@ def read_bulk(path: Path) -> FileMesh:
 def _translated(line: int, keyword: str, fields: list[str]) -> list[Card]:
     """The equivalent cards of Abaqus; cards that are not read keep their keyword."""
     first, second, *others = fields
-    if keyword in ("GRID", "GRDSET") and second not in ("", "0"):
-        raise MeshError(
+    require(
+        (
+            keyword not in ("GRID", "GRDSET") or second in ("", "0"),
             f"gives nodes in a coordinate system (CP {second}): export them in the basic one",
-            line=line,
-        )
+        ),
+        line=line,
+    )
     if keyword == "GRID":
         return [Card("NODE", {}, line, [(line, [first, *map(_decimal, others[:3])])])]
     if MATERIAL.fullmatch(keyword):

@@ -7,7 +7,7 @@ the checks the mesh fails, or the blade is another one.
 import numpy as np
 from numpy.typing import NDArray
 
-from geometry.base import MeshError
+from geometry.base import require
 
 MOST_GAP = 0.15  # of the chord, between two points; blunt edges are thinner
 ALONE = 2.5  # times the next longest step: a gap, not the spacing of the points
@@ -37,22 +37,23 @@ def check_outline(name: str, outline: NDArray[np.float64]) -> None:
     steps = np.roll(outline, -1, axis=0) - outline
     lengths = np.linalg.norm(steps, axis=1)
     longest, gap = np.argsort(lengths)[-2:]
-    if lengths[gap] > max(MOST_GAP * chord, ALONE * lengths[longest]):
-        raise MeshError(
+    heights, directions = _heights(outline), steps / np.where(lengths > 0, lengths, np.inf)[:, None]
+    spikes = (heights > SPIKE * chord) & _is_spike(directions - np.roll(directions, 1, axis=0))
+    worst = int(np.argmax(heights * spikes))
+    require(
+        (
+            lengths[gap] <= max(MOST_GAP * chord, ALONE * lengths[longest]),
             f"a gap of {1e3 * lengths[gap]:.3g} mm after its point {gap + 1} of "
             f"{len(outline)}, where others are {1e3 * lengths[longest]:.3g} mm apart at most: "
             "is the file cut short?",
-            key=name,
-        )
-    heights, turns = _heights(outline), _turns(steps, lengths)
-    spikes = (heights > SPIKE * chord) & _is_spike(turns)
-    if np.any(spikes):
-        worst = int(np.argmax(heights * spikes))
-        raise MeshError(
+        ),
+        (
+            not np.any(spikes),
             f"its point {worst + 1} of {len(outline)} stands {1e3 * heights[worst]:.3g} mm "
             "beside its neighbours: correct its coordinates",
-            key=name,
-        )
+        ),
+        key=name,
+    )
 
 
 def check_line(names: list[str], edges: NDArray[np.float64], radii: NDArray[np.float64]) -> None:
@@ -70,15 +71,16 @@ def check_line(names: list[str], edges: NDArray[np.float64], radii: NDArray[np.f
         When one does not; the message names the section without which the others would.
     """
     off = _offset(edges, radii)
-    if off <= BESIDE:
-        return
     kept = [np.delete(np.arange(len(names)), i) for i in range(len(names))]
     without = [_offset(edges[rest], radii[rest]) for rest in kept]
     alone = len(names) > 3 and min(without) <= BESIDE
     what = names[int(np.argmin(without))] if alone else f"one of {names[0]} to {names[-1]}"
-    raise MeshError(
-        f"an edge lies {100 * off:.0f} % of the chord beside the line between its neighbours "
-        f"(allowed {100 * BESIDE:.0f} %): is the section shifted, turned or scaled?",
+    require(
+        (
+            off <= BESIDE,
+            f"an edge lies {100 * off:.0f} % of the chord beside the line between its neighbours "
+            f"(allowed {100 * BESIDE:.0f} %): is the section shifted, turned or scaled?",
+        ),
         key=what,
     )
 
@@ -103,14 +105,11 @@ def _heights(outline: NDArray) -> NDArray:
     return across / np.where(length > 0, length, np.inf)
 
 
-def _turns(steps: NDArray, lengths: NDArray) -> NDArray:
-    """Change (n, 3) of the direction of the outline at each point."""
-    directions = steps / np.where(lengths > 0, lengths, np.inf)[:, None]
-    return directions - np.roll(directions, 1, axis=0)
-
-
 def _is_spike(turns: NDArray) -> NDArray[np.bool_]:
-    """Whether the outline turns at a point (n,), and back again at both neighbours."""
+    """Whether the outline turns at a point (n,), and back again at both neighbours.
+
+    ``turns`` (n, 3): change of its direction at each point.
+    """
     size = np.linalg.norm(turns, axis=1)
     back = np.ones(len(turns), dtype=bool)
     for neighbour in (1, -1):

@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 from geometry.abaqus import read_deck
 from geometry.ansys import EXPORT, read_archive
 from geometry.base import MeshError, UserError, require, require_file
-from geometry.file_mesh import FileMesh, as_tetrahedra, require_all
-from geometry.file_physics import Physics
+from geometry.file_mesh import FileMesh, Physics, as_tetrahedra, require_all
 from geometry.nastran import read_bulk
 from geometry.split import NODES, Block, upright
 

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import Akima1DInterpolator
 from scipy.spatial.distance import pdist, squareform
 
-from geometry.base import MeshError, MeshWarning, csv_rows, numbers, shown
+from geometry.base import MeshError, MeshWarning, csv_rows, numbers, require, shown
 from geometry.blade import SectionTable
 from geometry.frame import to_blade
 from geometry.outline import check_line, check_outline, enclosed
@@ -114,32 +114,35 @@ def _check_order(sections: list[CutSection]) -> None:
     """Check that the sections follow one another from hub to tip, or from tip to hub."""
     rises = np.diff([_radius(section) for section in sections])
     up = np.sum(rises > 0) >= len(rises) / 2
-    if np.any((rises > 0) != up):
-        first = int(np.argmax((rises > 0) != up))
-        raise MeshError(
+    first = int(np.argmax((rises > 0) != up))
+    require(
+        (
+            np.all((rises > 0) == up),
             f"{sections[first + 1].name} lies {'inside' if up else 'outside'} "
             f"{sections[first].name}, other than all before: give the sections in order, hub to "
-            "tip, and check its radius"
+            "tip, and check its radius",
         )
+    )
 
 
 def _read(path: str | Path) -> dict[str, NDArray[np.float64]]:
     """Outlines by name, in the file's unit and axes."""
     outlines: dict[str, list[list[float]]] = {}
     (number, header), *rows = list(csv_rows(path)) or [(1, [])]
-    if header != HEADER:
-        raise MeshError(f"the header must be {','.join(HEADER)}", line=number)
+    require((header == HEADER, f"the header must be {','.join(HEADER)}"), line=number)
     for line, (name, *values) in rows:
-        if not name.isprintable():
-            raise MeshError(f"section {shown(name)}: is no name", line=line)
+        require((name.isprintable(), f"section {shown(name)}: is no name"), line=line)
         outlines.setdefault(name, []).append(numbers(values, HEADER[1:], line))
-    if len(outlines) < 2:
-        raise MeshError(f"{len(outlines)} section(s); needs two or more, hub to tip")
-    for name, points in outlines.items():
-        if len(points) < FEWEST_POINTS:
-            raise MeshError(
-                f"section {name} has {len(points)} points; needs {FEWEST_POINTS} or more"
+    require(
+        (len(outlines) > 1, f"{len(outlines)} section(s); needs two or more, hub to tip"),
+        *(
+            (
+                len(points) >= FEWEST_POINTS,
+                f"section {name} has {len(points)} points; needs {FEWEST_POINTS} or more",
             )
+            for name, points in outlines.items()
+        ),
+    )
     return {name: np.array(points) for name, points in outlines.items()}
 
 
@@ -159,26 +162,31 @@ def _cut(name: str, outline: NDArray, share: float) -> CutSection:
     along = suction[-1] - suction[0]
     ahead = np.cross([1.0, 0, 0], along) * -1.0
     thickness = (cut.pressure - cut.suction) @ ahead / np.linalg.norm(ahead)
-    if thickness.max() < THINNEST * np.linalg.norm(along):
-        raise MeshError(
+    require(
+        (
+            thickness.max() >= THINNEST * np.linalg.norm(along),
             f"it is {100 * thickness.max() / np.linalg.norm(along):.2g} % of its chord thick "
             f"(allowed from {100 * THINNEST:g} %): are its columns x, y, z, all in one unit?",
-            key=name,
-        )
-    if thickness.min() <= 0:
-        raise MeshError(
+        ),
+        (
+            thickness.min() > 0,
             f"its sides cross at {100 * stations[thickness.argmin()]:.0f} % of the chord; give "
             "the points of its outline in order",
-            key=name,
-        )
+        ),
+        key=name,
+    )
     return cut
 
 
 def _sides(name: str, outline: NDArray) -> tuple[NDArray, NDArray]:
     """Suction and pressure side, each from the leading to the trailing end of the chord."""
     outline = outline[np.linalg.norm(np.roll(outline, -1, axis=0) - outline, axis=1) > 0]
-    if len(outline) < FEWEST_POINTS:
-        raise MeshError(f"{name} has {len(outline)} different points; needs {FEWEST_POINTS}")
+    require(
+        (
+            len(outline) >= FEWEST_POINTS,
+            f"{name} has {len(outline)} different points; needs {FEWEST_POINTS}",
+        )
+    )
     check_outline(name, outline)
     gaps = squareform(pdist(outline))
     first, last = np.unravel_index(gaps.argmax(), gaps.shape)
@@ -194,8 +202,8 @@ def _sides(name: str, outline: NDArray) -> tuple[NDArray, NDArray]:
 def _at_stations(name: str, side: NDArray, stations: NDArray) -> NDArray:
     """Points of a side at chord fractions; modified Akima splines do not overshoot at corners."""
     steps = np.linalg.norm(np.diff(side, axis=0), axis=1)
-    if len(side) < FEWEST_POINTS // 4:
-        raise MeshError(f"a side has {len(side)} points; needs {FEWEST_POINTS // 4}", key=name)
+    fewest = FEWEST_POINTS // 4
+    require((len(side) >= fewest, f"a side has {len(side)} points; needs {fewest}"), key=name)
     arc = np.concatenate([[0], np.cumsum(steps)])
     curve = Akima1DInterpolator(arc, side, method="makima")
     samples = np.linspace(0, arc[-1], DENSE)
@@ -221,9 +229,11 @@ def _radii(section: CutSection) -> NDArray[np.float64]:
 def _check_crossing(sections: list[CutSection]) -> None:
     for low, high in pairwise(sections):
         rise = (_radii(high) - _radii(low)).min(axis=0)
-        if rise.min() < APART:
-            raise MeshError(
+        require(
+            (
+                rise.min() >= APART,
                 f"{high.name} lies {1e3 * rise.min():.3g} mm outside {low.name} at "
                 f"station {rise.argmin() + 1} of {STATIONS}; sections must not cross or meet "
-                f"(allowed from {1e3 * APART:g} mm)"
+                f"(allowed from {1e3 * APART:g} mm)",
             )
+        )

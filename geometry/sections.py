@@ -9,7 +9,7 @@ four sides are lofted as open faces, and the outlines of the first and last sect
 import gmsh
 import numpy as np
 
-from geometry.base import MeshError
+from geometry.base import require
 from geometry.blade import Sections
 from geometry.profile import profile_at
 from geometry.section_table import CutSection
@@ -49,8 +49,12 @@ def _loft(sections: Sections) -> int:
     solids, _ = occ.intersect([tag for tag in loft if tag[0] == 3], annulus)
     occ.remove(occ.getEntities(2) + occ.getEntities(1) + occ.getEntities(0), recursive=False)
     occ.synchronize()
-    if len(solids) != 1:
-        raise MeshError(f"the sections loft to {len(solids)} solids, not one; check the sections")
+    require(
+        (
+            len(solids) == 1,
+            f"the sections loft to {len(solids)} solids, not one; check the sections",
+        )
+    )
     return solids[0][1]
 
 
@@ -62,11 +66,13 @@ def _cut_faces(sections: Sections, solid: int) -> tuple[int, int]:
         (tip, profile_at(sections, sections.tip_radius), "tip"),
     ):
         area = gmsh.model.occ.getMass(2, tag)
-        if abs(area / profile.area - 1) > 0.02:  # the cylinder is slightly oblique to the section
-            raise MeshError(
+        require(
+            (
+                abs(area / profile.area - 1) <= 0.02,  # the cylinder is oblique to the section
                 f"{name} face of {area:.3e} m2 where the section has {profile.area:.3e}; "
-                f"check its thickness, and chord and lean against the radius"
+                f"check its thickness, and chord and lean against the radius",
             )
+        )
     return root, tip
 
 
@@ -102,6 +108,10 @@ def _ends(sides: list[tuple[int, int]]) -> tuple[list[int], list[int]]:
         by_radius((tag for _, tag in gmsh.model.getBoundary([side], oriented=False)), 1)
         for side in sides
     ]
-    if [len(curves) for curves in around] != [4, 4, 4, 4]:
-        raise MeshError("the sections do not loft to four sides; check them")
+    require(
+        (
+            [len(curves) for curves in around] == [4, 4, 4, 4],
+            "the sections do not loft to four sides; check them",
+        )
+    )
     return [curves[0] for curves in around], [curves[-1] for curves in around]

@@ -10,8 +10,8 @@ import gmsh
 import numpy as np
 from numpy.typing import NDArray
 
-from geometry.base import MeshError, ProvenanceError, anew, intact
-from geometry.file_physics import Physics
+from geometry.base import MeshError, ProvenanceError, anew, intact, require
+from geometry.file_mesh import Physics
 
 SAMPLES = 200  # points on each curve
 MESH = b"$MeshFormat\n"  # begins a mesh of gmsh
@@ -59,8 +59,11 @@ def merge(path: str | Path) -> None:
         When the file is no mesh, or not as it was written.
     """
     data = intact(path).read_bytes()
-    if not data.startswith(MESH):
-        raise ProvenanceError(f"is no mesh of gmsh; {anew(path)}", file=path)
+    require(
+        (data.startswith(MESH), f"is no mesh of gmsh; {anew(path)}"),
+        kind=ProvenanceError,
+        file=path,
+    )
     with TemporaryDirectory() as folder:
         copy = Path(folder, "blade.msh")
         copy.write_bytes(data)

@@ -15,7 +15,7 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_matrix, tril, triu, vstack
 
-from geometry.base import Provenance, legible, require_format, write_whole
+from geometry.base import Provenance, legible, require, require_format, write_whole
 from geometry.elsewhere import SYMMETRIC
 
 FORMAT = 1
@@ -172,16 +172,26 @@ def _read(dataset: xr.Dataset, f: Field) -> NDArray | float | int | tuple[str, .
     """Value of a field that is not sparse."""
     name, layout = f.name, f.metadata
     values = dataset[name].values
-    if dataset[name].dims != layout["dims"]:
-        raise ValueError(f"{name}: dimensions {dataset[name].dims}, not {layout['dims']}")
+    require(
+        (
+            dataset[name].dims == layout["dims"],
+            f"{name}: dimensions {dataset[name].dims}, not {layout['dims']}",
+        ),
+        kind=ValueError,
+    )
     if f.type == tuple[str, ...]:
         return tuple(map(str, values))
     if f.type is int and values.dtype.kind == "i" and not values.ndim:
         return int(values)
-    if values.dtype != float:
-        raise ValueError(f"{name}: of type {values.dtype}, not of floating point")
-    if not layout["may_be_nan"] and not np.isfinite(values).all():
-        raise ValueError(f"{name}: not finite")
+    is_float = values.dtype == float
+    require(
+        (is_float, f"{name}: of type {values.dtype}, not of floating point"),
+        (
+            layout["may_be_nan"] or (is_float and np.isfinite(values).all()),
+            f"{name}: not finite",
+        ),
+        kind=ValueError,
+    )
     if layout["symmetric"]:
         require_symmetric(name, values)
     return values if values.ndim else float(values)
@@ -191,13 +201,20 @@ def _read_sparse(dataset: xr.Dataset, f: Field) -> csr_matrix | tuple[csr_matrix
     """Value of a sparse field."""
     data, indices, indptr = (dataset[f"{f.name}_{part}"].values for part in CSR)
     integers = {indices.dtype.kind, indptr.dtype.kind} == {"i"}
-    if data.dtype != float or not integers or [*indptr[-1:]] != [len(data)]:
-        raise ValueError(f"{f.name}: no sparse matrix")
+    require(
+        (
+            data.dtype == float and integers and [*indptr[-1:]] == [len(data)],
+            f"{f.name}: no sparse matrix",
+        ),
+        kind=ValueError,
+    )
     columns = dataset.sizes[f.metadata["dims"][-1].removesuffix("_")]
     A = csr_matrix((data, indices, indptr), (len(indptr) - 1, columns))
     A.check_format(full_check=True)
-    if not (np.isfinite(data).all() and data.any()):
-        raise ValueError(f"{f.name}: not finite, or zero")
+    require(
+        (np.isfinite(data).all() and data.any(), f"{f.name}: not finite, or zero"),
+        kind=ValueError,
+    )
     if not f.metadata["symmetric"]:
         return A
     below = [A[row : row + columns] for row in range(0, A.shape[0], columns)]
@@ -207,10 +224,14 @@ def _read_sparse(dataset: xr.Dataset, f: Field) -> csr_matrix | tuple[csr_matrix
 
 def _symmetric(name: str, upper: csr_matrix) -> csr_matrix:
     """Matrix from its upper triangle; its diagonal must be positive."""
-    if upper.shape[0] != upper.shape[1] or not (upper.diagonal() > 0).all():
-        raise ValueError(f"{name}: not square, or not positive on its diagonal")
-    if tril(upper, -1).nnz:
-        raise ValueError(f"{name}: not an upper triangle")
+    require(
+        (
+            upper.shape[0] == upper.shape[1] and (upper.diagonal() > 0).all(),
+            f"{name}: not square, or not positive on its diagonal",
+        ),
+        (not tril(upper, -1).nnz, f"{name}: not an upper triangle"),
+        kind=ValueError,
+    )
     return (upper + triu(upper, 1).T).tocsr()
 
 
@@ -222,10 +243,16 @@ def require_symmetric(name: str, A: NDArray[np.float64]) -> None:
     ValueError
         If they are not, or all are zero.
     """
-    if A.shape[-1] != A.shape[-2]:
-        raise ValueError(f"{name}: of shape {A.shape}, not square")
+    require(
+        (A.shape[-1] == A.shape[-2], f"{name}: of shape {A.shape}, not square"),
+        kind=ValueError,
+    )
     largest = abs(A).max(initial=0.0)
-    if not largest > 0:
-        raise ValueError(f"{name}: zero")
-    if abs(A - np.swapaxes(A, -1, -2)).max() > SYMMETRIC * largest:
-        raise ValueError(f"{name}: not symmetric")
+    require(
+        (largest > 0, f"{name}: zero"),
+        (
+            abs(A - np.swapaxes(A, -1, -2)).max(initial=0.0) <= SYMMETRIC * largest,
+            f"{name}: not symmetric",
+        ),
+        kind=ValueError,
+    )

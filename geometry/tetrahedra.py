@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
-from geometry.base import MeshError
+from geometry.base import require
 
 EDGES = np.array([(0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3)])
 # six nodes each, seen from outside: corners anticlockwise, then the middles of the edges after them
@@ -41,11 +41,33 @@ def exterior(cells: NDArray) -> NDArray[np.int64]:
         return_inverse=True,
         return_counts=True,
     )
-    _check_shared(sharing)
+    require(
+        (
+            not np.any(sharing > 2),
+            f"{np.sum(sharing > 2)} facets belong to more than two cells: remove cells that "
+            f"overlap or stand twice",
+        )
+    )
     check_middles(np.sort(cells[:, EDGES].reshape(-1, 2), axis=1), cells[:, 4:].ravel())
-    _check_connected(np.repeat(np.arange(len(cells)), 4), which.ravel())
+    pieces = _pieces(np.repeat(np.arange(len(cells)), 4), which.ravel())
+    sizes = np.sort(np.bincount(pieces))[::-1]
+    require(
+        (
+            len(sizes) == 1,
+            f"the cells are in {len(sizes)} pieces ({sizes[0]} cells in the largest, {sizes[-1]} "
+            f"in the smallest): merge coincident nodes, and keep the blade alone",
+        )
+    )
     outside = facets[first[sharing == 1]]
-    _check_closed(outside)
+    # two facets meet at each edge of the surface; four where a solid touches itself
+    _, meeting = np.unique(_edges(outside), axis=0, return_counts=True)
+    require(
+        (
+            np.all(meeting == 2),
+            f"the surface is not manifold: at {np.sum(meeting != 2)} of its edges more than two "
+            f"facets meet; separate the cells that touch there along an edge only",
+        )
+    )
     return outside
 
 
@@ -78,8 +100,7 @@ def outlines(facets: NDArray) -> list[NDArray[np.int64]]:
     border = sharing[which.ravel()] == 1
     links = zip(*ends[border].T.tolist(), facets[:, 3:].ravel()[border].tolist(), strict=True)
     after = {node: (middle, following) for node, following, middle in links}
-    if len(after) < border.sum():
-        raise MeshError("the outline of the facets touches itself at a node")
+    require((len(after) == border.sum(), "the outline of the facets touches itself at a node"))
     lines = []
     while after:
         node, line = next(iter(after)), []
@@ -103,14 +124,6 @@ def _pieces(member: NDArray, shared: NDArray) -> NDArray:
     return connected_components(graph, directed=False)[1][:n]
 
 
-def _check_shared(sharing: NDArray) -> None:
-    if np.any(sharing > 2):
-        raise MeshError(
-            f"{np.sum(sharing > 2)} facets belong to more than two cells: remove cells that "
-            f"overlap or stand twice"
-        )
-
-
 def check_middles(ends: NDArray, middles: NDArray) -> None:
     """Check that edges with the same ``ends`` (n, 2), in order, have the same middle node (n,).
 
@@ -119,26 +132,12 @@ def check_middles(ends: NDArray, middles: NDArray) -> None:
     MeshError
         When one has two.
     """
-    edges = np.unique(ends, axis=0)
-    with_middle = np.unique(np.column_stack([ends, middles]), axis=0)
-    if torn := len(with_middle) - len(edges):
-        raise MeshError(f"{torn} edges have two middle nodes: merge the coincident nodes")
-
-
-def _check_connected(cell: NDArray, facet: NDArray) -> None:
-    sizes = np.sort(np.bincount(_pieces(cell, facet)))[::-1]
-    if len(sizes) > 1:
-        raise MeshError(
-            f"the cells are in {len(sizes)} pieces ({sizes[0]} cells in the largest, {sizes[-1]} "
-            f"in the smallest): merge coincident nodes, and keep the blade alone"
+    edges, with_middle = (
+        len(np.unique(rows, axis=0)) for rows in (ends, np.column_stack([ends, middles]))
+    )
+    require(
+        (
+            with_middle == edges,
+            f"{with_middle - edges} edges have two middle nodes: merge the coincident nodes",
         )
-
-
-def _check_closed(outside: NDArray) -> None:
-    """Check that two facets meet at each edge of the surface; four where a solid touches itself."""
-    _, sharing = np.unique(_edges(outside), axis=0, return_counts=True)
-    if np.any(sharing != 2):
-        raise MeshError(
-            f"the surface is not manifold: at {np.sum(sharing != 2)} of its edges more than two "
-            f"facets meet; separate the cells that touch there along an edge only"
-        )
+    )

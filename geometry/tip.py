@@ -1,9 +1,13 @@
-"""Chord and camber line of the tip, from the outline of its facets.
+"""Chord and camber line of the tip, from the outline of its facets, and its taper.
 
 The tip is developed in a plane, s = r theta and z, with its mean radius r. The chord joins both
 ends of the camber line; the chord fraction xi is 0 and 1 at the extremes of the outline along it.
 The line across the chord at xi intersects both sides; the camber line is midway between them.
 Between points of the outline r, theta and z are linear.
+
+Taper is the slope s = dr/dz along the chord, that of the casing which it follows. On a casing of
+slope s = tan g the outward normal is (cos g, -sin g) in (r, z). What closes a gap measured along
+the radius is u_r - s u_z.
 """
 
 from dataclasses import dataclass
@@ -13,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import make_interp_spline
 
-from geometry.base import MeshError
+from geometry.base import require
 from geometry.hats import middles
 from geometry.outline import enclosed
 
@@ -25,6 +29,8 @@ JUDGED = (*EDGES, 1 / 2)  # at which a response is judged: a mode may have a nod
 FOLD = 2e-3  # of the axial length, by which z may go back along a side: at a round edge
 LEAST_THICK = 1e-6  # m, where the thickness at equal z vanishes
 TURNS = 6  # iterations of the chord's direction; the error falls by edge radius over chord in each
+FLAT = 1e-5  # m, from one plane: a tip within was cut by a plane
+LEAST_SLOPE = 0.002  # smaller ones count as 0: they change what closes the gap by less than 3 %
 
 
 @dataclass(frozen=True)
@@ -61,7 +67,8 @@ class DevelopedTip:
         """Coordinates (n, 2), m, along the chord and ahead of it, of ``points`` (n, 3), m."""
         x, y, z = np.asarray(points, dtype=float).T
         theta = np.angle((x + 1j * y) * np.exp(-1j * self.theta))
-        return self._turned(np.column_stack([self.radius * theta, z]))
+        flat = np.column_stack([self.radius * theta, z])
+        return flat @ np.column_stack([self.chord, [self.chord[1], -self.chord[0]]])
 
     def xi(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Chord fraction (n,) of ``points`` (n, 3), m."""
@@ -122,12 +129,14 @@ class DevelopedTip:
         MeshError
             When the tip has no two edges.
         """
-        if not self.has_two_edges:
-            raise MeshError(
+        require(
+            (
+                self.has_two_edges,
                 "a circle about the engine axis meets the outline of the tip more than twice, so "
                 "that it has no edge behind and ahead; allowed 1",
-                key="interface.across",
-            )
+            ),
+            key="interface.across",
+        )
         x, y, z = np.asarray(points, dtype=float).T
         theta = np.angle((x + 1j * y) * np.exp(-1j * self.theta)) + self.theta
         behind, ahead = self.at_z(z)
@@ -150,9 +159,6 @@ class DevelopedTip:
         area = abs(enclosed(*self.developed(cartesian(self.outline)).T))
         return float(area / (self.high - self.low) ** 2)
 
-    def _turned(self, flat: NDArray) -> NDArray:
-        return flat @ np.column_stack([self.chord, [self.chord[1], -self.chord[0]]])
-
     def _sides(self, xi: NDArray) -> NDArray:
         """Both sides (2, n, 3) in r, theta, z: first the one behind in rotation, then the other."""
         s = self.radius * (self.outline[:, 1] - self.theta)
@@ -170,6 +176,31 @@ def cartesian(rtz: NDArray[np.float64]) -> NDArray[np.float64]:
     """x, y, z (n, 3), m, of points (n, 3) given by r, theta, z."""
     r, theta, z = rtz.T
     return np.column_stack([r * np.cos(theta), r * np.sin(theta), z])
+
+
+def slope_of_line(r: NDArray[np.float64], z: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Slope dr/dz (places,) of a line of radii ``r`` (places,), m, at ascending ``z``, m."""
+    return counted(np.gradient(r, z))
+
+
+def slope_of_tip(nodes: NDArray[np.float64], line: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Slope dr/dz (places,) of a tip with ``nodes`` (n, 3), m, and the camber ``line``.
+
+    A tip that was cut by a plane has the slope of that plane: the radius of its line changes with
+    the angle, too, which is no taper.
+    """
+    centred = nodes - nodes.mean(axis=0)
+    normal = np.linalg.svd(centred, full_matrices=False)[2][-1]
+    if len(nodes) < 4 or abs(centred @ normal).max() > FLAT:
+        return slope_of_line(line[:, 0], line[:, 2])
+    theta = line[:, 1].mean()
+    outward = normal[:2] @ [np.cos(theta), np.sin(theta)]
+    return counted(np.full(len(line), -normal[2] / outward))
+
+
+def counted(slope: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The slope, 0 where it is less than ``LEAST_SLOPE``."""
+    return np.where(abs(slope) < LEAST_SLOPE, 0.0, slope)
 
 
 def _chord(flat: NDArray) -> NDArray:
@@ -195,11 +226,13 @@ def _cross(values: NDArray, flat: NDArray, chord: NDArray, stations: NDArray) ->
     for x in low + stations * (high - low):
         before = along < x
         (i,) = np.nonzero(before != np.roll(before, -1))
-        if len(i) != 2:
-            raise MeshError(
+        require(
+            (
+                len(i) == 2,
                 f"the outline of the tip folds over its chord: a line across it meets {len(i)} "
-                f"sides, not two; give the facets of one plain tip"
+                f"sides, not two; give the facets of one plain tip",
             )
+        )
         j = (i + 1) % len(along)
         f = (x - along[i]) / (along[j] - along[i])
         order = np.argsort(ahead[i] + f * (ahead[j] - ahead[i]))

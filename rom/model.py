@@ -11,8 +11,7 @@ from scipy.linalg import eigh
 from geometry.base import RPM, Provenance, UserError, failed
 from geometry.hats import hats, lean, mean, middles, over_edges, projection
 from geometry.stored import Stored, frozen, stored
-from geometry.taper import slope_of_line
-from geometry.tip import EDGES, on_line
+from geometry.tip import EDGES, on_line, slope_of_line
 from rom.polynomial import evaluate, interpolate
 
 CODE = ("fem.assemble", "rom.full_model", "rom.reduce")  # modules that compute its numbers

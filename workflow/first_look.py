@@ -16,8 +16,7 @@ from geometry.base import MeshError, MeshWarning, UserError, check_settings
 from geometry.blade import METRES, Blade, Frame, Interface, Material
 from geometry.cad import StepFile
 from geometry.facets import normals
-from geometry.file_mesh import FileMesh
-from geometry.file_physics import FileMaterial, Physics
+from geometry.file_mesh import FileMaterial, FileMesh, Physics
 from geometry.frame import rotation
 from geometry.mesh import ENOUGH, MeshSummary, build_mesh
 from geometry.readers import read_mesh_file

@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
 
-from geometry.base.errors import SettingsError
+from geometry.base.errors import SettingsError, require
 
 DIGITS = 16  # of a hash
 
@@ -76,5 +76,11 @@ def unchanged(planned: Mapping[str, str]) -> Iterator[None]:
     yield
     _hash.cache_clear()
     for path, of in planned.items():
-        if file_hash(path) != of or _state(path)[:-1] != written[path]:
-            raise SettingsError("changed while it was read: run it again", file=path)
+        require(
+            (
+                file_hash(path) == of and _state(path)[:-1] == written[path],
+                "changed while it was read: run it again",
+            ),
+            kind=SettingsError,
+            file=path,
+        )

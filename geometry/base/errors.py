@@ -97,13 +97,13 @@ def failed[F: Fault | str](*checks: tuple[Any, F]) -> list[F]:
 
 
 def require(
-    *checks: tuple[Any, Fault | str], kind: type[UserError] = MeshError, **about: Any
+    *checks: tuple[Any, Fault | str], kind: Callable[..., Exception] = MeshError, **about: Any
 ) -> None:
     """Refuse by the first fault whose check does not hold.
 
     Parameters
     ----------
-    kind, **about : of the error that is raised, as of ``UserError``.
+    kind, **about : of the error that is raised, as of ``UserError``; a ``ValueError`` has no more.
     """
     if faults := failed(*checks):
         raise kind(faults[0], **about)

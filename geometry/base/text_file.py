@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 from io import StringIO
 from pathlib import Path
 
-from geometry.base.errors import SettingsError, shown
+from geometry.base.errors import SettingsError, require, shown
 
 MOST_BYTES = 2**26  # of a table; decks of meshes may be larger
 NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eEdD][-+]?\d+)?", re.ASCII)
@@ -21,14 +21,16 @@ def require_file(path: Path, suffixes: Collection[str]) -> None:
     SettingsError
         Without the path, as ``read_text``.
     """
-    if path.suffix.lower() not in suffixes:
-        raise SettingsError(
+    require(
+        (
+            path.suffix.lower() in suffixes,
             f"suffix {path.suffix or 'missing'}: known are {', '.join(suffixes)}",
-            value=path.suffix,
-            allowed=list(suffixes),
-        )
-    if not path.is_file():
-        raise SettingsError("there is no such file")
+        ),
+        kind=SettingsError,
+        value=path.suffix,
+        allowed=list(suffixes),
+    )
+    require((path.is_file(), "there is no such file"), kind=SettingsError)
 
 
 def read_text(path: str | Path, most: int | None = MOST_BYTES, errors: str = "strict") -> str:
@@ -43,10 +45,12 @@ def read_text(path: str | Path, most: int | None = MOST_BYTES, errors: str = "st
         ``most`` bytes, or is no UTF-8 text; the message does not have the path.
     """
     try:
-        if os.path.exists(path) and not os.path.isfile(path):
-            raise SettingsError("is no file that can be read, but a folder, pipe or device")
-        if most is not None and (size := os.path.getsize(path)) > most:
-            raise SettingsError(f"has {size} bytes: allowed up to {most}")
+        size = os.path.getsize(path)
+        require(
+            (os.path.isfile(path), "is no file that can be read, but a folder, pipe or device"),
+            (most is None or size <= most, f"has {size} bytes: allowed up to {most}"),
+            kind=SettingsError,
+        )
         data = Path(path).read_bytes()
     except OSError as error:
         raise SettingsError(f"cannot be read ({error.strerror})") from None
@@ -95,8 +99,14 @@ def csv_rows(path: str | Path) -> Iterator[tuple[int, list[str]]]:
             (cells,) = csv.reader([line], skipinitialspace=True, strict=True)
         except (csv.Error, ValueError) as error:
             raise SettingsError(f"is no line of a CSV file ({error})", line=number) from None
-        if len(cells) == 1 and re.search(r"[^{\[].*[;\t]", line):
-            raise SettingsError("needs commas between its cells, not ; or tabs", line=number)
+        require(
+            (
+                len(cells) != 1 or not re.search(r"[^{\[].*[;\t]", line),
+                "needs commas between its cells, not ; or tabs",
+            ),
+            kind=SettingsError,
+            line=number,
+        )
         yield number, [cell.strip() for cell in cells]
 
 
@@ -108,8 +118,11 @@ def numbers(cells: Sequence[str], columns: Sequence[str], line: int) -> list[flo
     SettingsError
         When there are more or fewer, or one is no number; it has the ``line``.
     """
-    if len(cells) != len(columns):
-        raise SettingsError(f"needs {', '.join(columns)}: found {len(cells)} cells", line=line)
+    require(
+        (len(cells) == len(columns), f"needs {', '.join(columns)}: found {len(cells)} cells"),
+        kind=SettingsError,
+        line=line,
+    )
     try:
         return [number(cell) for cell in cells]
     except ValueError as error:

@@ -7,7 +7,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from geometry.base.errors import Fault, SettingsError
+from geometry.base.errors import SettingsError, require
 from geometry.base.strict_yaml import Keys, parse
 from geometry.base.text_file import read_text
 from geometry.base.units import as_in
@@ -101,16 +101,20 @@ def _base(chain: list[Path], text: Layer) -> Path | None:
     if BASE not in text.values:
         return None
     name = text.values.pop(BASE)
-    fault = Fault("", BASE, name, file=text.source, line=text.lines.get((BASE,)))
-    if not isinstance(name, str) or not NAME.fullmatch(name):
-        raise SettingsError(fault, text=f"needs the name of a file; {A_NAME}")
+    about = {"key": BASE, "value": name, "file": text.source, "line": text.lines.get((BASE,))}
+    named = isinstance(name, str) and NAME.fullmatch(name)
+    require((named, f"needs the name of a file; {A_NAME}"), kind=SettingsError, **about)
     base = chain[-1].with_name(f"{name}.yaml")
-    if base in chain:
-        raise SettingsError(fault, text="comes back to itself")
-    if not os.path.exists(base) and name not in _variants(base.parent).values:
-        raise SettingsError(fault, text=f"needs the name of a file, no {base}")
-    if len(chain) > MOST_BASES:
-        raise SettingsError(fault, text=f"is one of more than {MOST_BASES} bases")
+    require(
+        (base not in chain, "comes back to itself"),
+        (
+            os.path.exists(base) or name in _variants(base.parent).values,
+            f"needs the name of a file, no {base}",
+        ),
+        (len(chain) <= MOST_BASES, f"is one of more than {MOST_BASES} bases"),
+        kind=SettingsError,
+        **about,
+    )
     return base
 
 
@@ -130,8 +134,12 @@ def _text(path: Path) -> Layer:
 
 def _layer(source: str, values: Any, lines: dict[Keys, int]) -> Layer:
     """The mapping of a file or variant; other values are refused."""
-    if not isinstance(values, dict):
-        raise SettingsError("holds no 'key: value' lines", file=source, line=lines.get(()))
+    require(
+        (isinstance(values, dict), "holds no 'key: value' lines"),
+        kind=SettingsError,
+        file=source,
+        line=lines.get(()),
+    )
     return Layer(source, values, lines)
 
 

@@ -11,8 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from pydantic import Field
 
 from geometry.base import RPM, Settings, SettingsError, checked, known, shifted
-from geometry.taper import counted, slope_of_line
-from geometry.tip import EDGES
+from geometry.tip import EDGES, counted, slope_of_line
 from simulate.scene.tables import (
     LARGEST_DEPTH,
     AnyLine,

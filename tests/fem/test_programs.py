@@ -27,7 +27,7 @@ from fem.solid import read_solid
 from geometry.base import ROOT, UserError, check_settings
 from geometry.blade import METRES, Frame, MeshFile, MeshGeometry
 from geometry.elsewhere import MatricesElsewhere
-from geometry.file_physics import UNITS
+from geometry.file_mesh import UNITS
 from geometry.frame import rotation
 from geometry.mesh import build_mesh
 from geometry.tetrahedra import EDGES

@@ -12,7 +12,7 @@ from refused import refused
 from geometry.ansys import read_archive
 from geometry.base import ROOT, MeshError, MeshWarning
 from geometry.blade import Blade
-from geometry.file_physics import FileMaterial
+from geometry.file_mesh import FileMaterial
 from geometry.mesh import build_mesh
 
 BLADES = ROOT / "workflow/blades"

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from geometry.taper import FLAT, LEAST, slope_of_tip
+from geometry.tip import FLAT, LEAST_SLOPE, slope_of_tip
 
 PLACES = 41
 ANGLE = 0.06  # rad, of the line
@@ -47,8 +47,8 @@ def test_a_tip_cut_flat_has_the_one_slope_of_the_plane(tilt):
 
 
 def test_smaller_slopes_count_as_none():
-    for slope in (0.99 * LEAST, -0.99 * LEAST):
+    for slope in (0.99 * LEAST_SLOPE, -0.99 * LEAST_SLOPE):
         nodes, line = tip(lambda theta, z, slope=slope: 0.5 + slope * z)
         assert not slope_of_tip(nodes, line).any()
-    nodes, line = tip(lambda theta, z: 0.5 + 1.01 * LEAST * z)
+    nodes, line = tip(lambda theta, z: 0.5 + 1.01 * LEAST_SLOPE * z)
     assert slope_of_tip(nodes, line).all()
