@@ -124,8 +124,7 @@ def time_by_density(numbers: Numbers) -> Finding:
 
 def modes(numbers: Numbers) -> Finding:
     """C09: the paper gives pictures, no numbers."""
-    above = enumerate(numbers["model"]["frequencies"][1:5], start=2)
-    return Finding(shown={f"f{i}/f1": ratio for i, ratio in above})
+    return Finding(shown={f"f{i}/f1": numbers["model"]["frequencies"][i - 1] for i in (2, 3, 4, 5)})
 
 
 def crossings(numbers: Numbers) -> Finding:
@@ -161,9 +160,8 @@ def shifts(numbers: Numbers) -> Finding:
         )
         for (part, k), (paper, digit) in SHIFTS.items()
     ]
-    coarsest = max(resolution.values())
     statements = [
-        more("least shift", min(ours.values()), 1, coarsest, calibrated=True),
+        more("least shift", min(ours.values()), 1, max(resolution.values()), calibrated=True),
         *(
             more(
                 f"E = 10 over E = 1, k = {k}",
@@ -175,19 +173,28 @@ def shifts(numbers: Numbers) -> Finding:
             for k in ("4", "6")
         ),
     ]
-    over_consistent = {
-        f"the paper's, {name}, k = 6, over {CONSISTENT[6]}": CRITICAL[part][6] / CONSISTENT[6]
-        for part, name in COATING.items()
-    }
-    return Finding(tuple(values), tuple(statements), over_consistent)
+    return Finding(
+        tuple(values),
+        tuple(statements),
+        {
+            f"the paper's, {name}, k = 6, over {CONSISTENT[6]}": CRITICAL[part][6] / CONSISTENT[6]
+            for part, name in COATING.items()
+        },
+    )
 
 
 def higher_peak(numbers: Numbers) -> Finding:
     """C12: a datum of the identification."""
     soft, stiff = (_peak(numbers, part, 4) for part in ("e1", "e10"))
-    name = "‖Y‖ at k = 4, E = 10 over E = 1"
     return Finding(
-        statements=(more(name, stiff["amplitude"] / soft["amplitude"], 1, calibrated=True),),
+        statements=(
+            more(
+                "‖Y‖ at k = 4, E = 10 over E = 1",
+                stiff["amplitude"] / soft["amplitude"],
+                1,
+                calibrated=True,
+            ),
+        ),
         shown={"largest u_r there": stiff["largest"] / soft["largest"]},
     )
 
@@ -227,15 +234,16 @@ def lobes(numbers: Numbers) -> Finding:
     """C15."""
     statements, between = [], []
     for part, name in COATING.items():
-        for where, count in numbers[part]["lobes"].items():
-            statements.append(equal(f"{name}, {where}", count, 2))
-        for k in (4, 6):
-            peak = _peak(numbers, part, k)
-            statements.append(equal(f"{name}, at k = {k}", peak["lobes"], k))
-            between.append(peak["between_lobes"])
-    statements.append(less("wear between lobes over theirs, at most", max(between), 0.5))
+        peaks = {k: _peak(numbers, part, k) for k in (4, 6)}
+        counts = {where: (n, 2) for where, n in numbers[part]["lobes"].items()}
+        counts |= {f"at k = {k}": (peak["lobes"], k) for k, peak in peaks.items()}
+        statements += [equal(f"{name}, {where}", *count) for where, count in counts.items()]
+        between += [peak["between_lobes"] for peak in peaks.values()]
     return Finding(
-        statements=tuple(statements),
+        statements=(
+            *statements,
+            less("wear between lobes over theirs, at most", max(between), 0.5),
+        ),
         because="A tip that vibrates little wears only those of its k lobes that lie where the "
         "casing is near.",
     )
@@ -294,16 +302,16 @@ def corners(numbers: Numbers) -> Finding:
 
 def stiffening(numbers: Numbers) -> Finding:
     """C19: rank correlation (Spearman 1904) of Omega_c with one modulus, the other constant."""
-    values, statements = [], []
-    for x, held, ranks in (("E", "K", "E"), ("K", "E", "K")):
-        lines = numbers["grid"]["rank"][ranks]
-        growing = sum(rank > 0 for rank in lines) / len(lines)
-        values.append(Value(f"share of {held} at which it grows with {x}", growing, 1, 1))
-        statements.append(more(f"rank correlation with {x}, mean", sum(lines) / len(lines), 0))
+    ranks = numbers["grid"]["rank"]
+    growing = {x: sum(rank > 0 for rank in ranks[x]) / len(ranks[x]) for x in ("E", "K")}
+    mean = {x: sum(ranks[x]) / len(ranks[x]) for x in ("E", "K")}
     return Finding(
-        tuple(values),
-        tuple(statements),
-        {f"with E at K = {K[0]:g}": numbers["grid"]["rank"]["E"][0]},
+        tuple(
+            Value(f"share of {held} at which it grows with {x}", growing[x], 1, 1)
+            for x, held in (("E", "K"), ("K", "E"))
+        ),
+        tuple(more(f"rank correlation with {x}, mean", mean[x], 0) for x in ("E", "K")),
+        {f"with E at K = {K[0]:g}": ranks["E"][0]},
         "With a small K a larger E only increases wear, the wear of a rod being about sigma/K: its "
         "peaks are low, and where they stand is hardly decided.",
     )
@@ -350,8 +358,8 @@ def tangential_lowers(numbers: Numbers) -> Finding:
             resolution = 2 * SPACING_OF_TILTED / without[key] if key == "Omega_c" else 0.0
             statements.append(less(f"{name} at k = {k}, with over without", ratio, 1, resolution))
             if "e10" in numbers:  # not with a choice changed
-                ratio = with_it[key] / _peak(numbers, "e10", k)[key]
-                shown[f"{name} at k = {k}, with over the flat tip's"] = ratio
+                flat = _peak(numbers, "e10", k)
+                shown[f"{name} at k = {k}, with over the flat tip's"] = with_it[key] / flat[key]
     lean = numbers.get("model", {}).get("tangential_over_radial", nan)
     return Finding(
         statements=tuple(statements),

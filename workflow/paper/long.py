@@ -23,14 +23,14 @@ def numbers(
     ``long``: sweeps at the same speeds, each from where the one before ended; the others go through
     the peak, as ``SWEEPS`` calls them.
     """
-    through = {"rest": rest, "run_up": run_up, "run_down": run_down, "on_worn": on_worn}
+    through = zip(SWEEPS, (rest, run_up, run_down, on_worn), strict=True)
     return {
         "rounds": np.cumsum([scene_of(runs).rounds for runs in long]).tolist(),
         "speeds": long[0]["speed_over_f1"].values.tolist(),
         "amplitude": [along_order(runs, ENGINE_ORDER).tolist() for runs in long],
         "wear": [_deepest(runs).tolist() for runs in long],
         "status": [runs["status"].values.tolist() for runs in long],
-        "through": {name: _way(runs) for name, runs in through.items()},
+        "through": {name: _way(runs) for name, runs in through},
     }
 
 
