@@ -8,8 +8,6 @@ import pandas as pd
 from workflow.job_cost import cpu_seconds
 from workflow.markdown import table
 
-HEAD = ["target", "jobs measured", "one after another (s)", "CPU (s)", "longest job (s)"]
-
 
 def cost(targets: Mapping[str, Iterable[str | Path]]) -> str:
     """Markdown table with a line for each target, from the benchmark files in its folders.
@@ -17,7 +15,8 @@ def cost(targets: Mapping[str, Iterable[str | Path]]) -> str:
     The CPU time is that of their logs, where they have it: of a longer job a benchmark file has the
     first 15 s. Times do not depend on when the jobs ran, at once or with pauses between them.
     """
-    return table(HEAD, [[target, *_sums(folders)] for target, folders in targets.items()]) + "\n"
+    head = ["target", "jobs measured", "one after another (s)", "CPU (s)", "longest job (s)"]
+    return table(head, ([target, *_sums(folders)] for target, folders in targets.items())) + "\n"
 
 
 def _sums(folders: Iterable[str | Path]) -> list[str]:

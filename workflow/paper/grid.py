@@ -27,10 +27,10 @@ from simulate.signals import (
 from simulate.sweeps.dataset import statuses
 from simulate.sweeps.over_speeds import as_sweep, at_speeds
 from simulate.sweeps.peak import peak_of
-from workflow.paper.published import WORST, E, K
+from workflow.paper.published import ENGINE_ORDER, WORST, E, K
 
 OF_PEAK = ("Omega_c", "over_crossing", "amplitude", "at_end", "clear")  # of ``Peak.plain``
-ORDER = "4"  # engine order of the peaks that are compared
+ORDER = str(ENGINE_ORDER)  # of the peaks that are compared
 ROUNDS = 200  # ten times the paper's
 WINDOW = 10  # revolutions of each Fourier transform
 
@@ -106,8 +106,11 @@ def of_rows(rows: Sequence[Numbers]) -> dict[str, Any]:
 
 def worst(table: Mapping[str, Any]) -> Numbers | None:
     """The case with the highest peak; None where none has a peak."""
-    with_peak = [case for case in table["cases"] if case["peaks"][ORDER]]
-    return max(with_peak, key=lambda case: case["peaks"][ORDER]["amplitude"], default=None)
+    return max(
+        (case for case in table["cases"] if case["peaks"][ORDER]),
+        key=lambda case: case["peaks"][ORDER]["amplitude"],
+        default=None,
+    )
 
 
 def long_cases(table: Mapping[str, Any]) -> dict[str, Numbers]:
@@ -131,9 +134,11 @@ def growth(scene: Scene, rom: Rom, name: str, case: Mapping[str, Any]) -> dict[s
     speed = case["peaks"][ORDER]["Omega_c"]
     long = scene.but(rounds=ROUNDS, record__history={"chord": [LEADING]})
     outcome = march(long, prepare(long, rom, speed * rom.omega1))
-    windows = map(spectrum, outcome.u_r[:, 0].reshape(ROUNDS // WINDOW, -1))
     gap = float(given_gaps(scene.gaps, rom, LEADING))
-    amplitudes = [float(amplitude(window, WINDOW, int(ORDER)) / gap) for window in windows]
+    amplitudes = [
+        float(amplitude(spectrum(window), WINDOW, ENGINE_ORDER) / gap)
+        for window in outcome.u_r[:, 0].reshape(ROUNDS // WINDOW, -1)
+    ]
     return {
         "name": name,
         "E": case["E"],

@@ -52,7 +52,7 @@ def _way(runs: xr.Dataset) -> dict[str, float]:
 
 def table(numbers: Mapping[str, Any]) -> str:
     """Two tables: over the revolutions, or how a run ended before, and through the peak."""
-    head = ["‖Y‖ / gap at Ω / f₁(0) =", *(f"{speed:.3f}" for speed in numbers["speeds"])]
+    speeds = [f"{speed:.3f}" for speed in numbers["speeds"]]
     lines = [
         [f"after {rounds} revolutions", *map(cell, along, ends)]
         for rounds, along, ends in zip(
@@ -69,4 +69,4 @@ def table(numbers: Mapping[str, Any]) -> str:
         }
         for name, way in numbers["through"].items()
     ]
-    return f"{rows_of(head, lines)}\n\n{records(by_way)}"
+    return f"{rows_of(['‖Y‖ / gap at Ω / f₁(0) =', *speeds], lines)}\n\n{records(by_way)}"

@@ -123,10 +123,10 @@ def two_five(runs: xr.Dataset, rom: Rom) -> Numbers:
     Also the range of the angle of the lobes near the peak of EO 5.
     """
     peaks = {str(k): peak(runs, rom, k) for k in (4, 5, 6)}
-    critical = [p["Omega_c"] for p in peaks.values() if p]
     speeds, _, lobes = _worn(runs)
     swept = np.isin(speeds, over_f1(scene_of(runs).speeds.omega(rom.f1), rom))
-    off = swept & ~np.any([np.abs(speeds / c - 1) <= RESONANT for c in critical], axis=0)
+    at_peaks = [np.abs(speeds / p["Omega_c"] - 1) <= RESONANT for p in peaks.values() if p]
+    off = swept & ~np.any(at_peaks, axis=0)
     return {
         "peaks": peaks,
         "most_frequent_off_resonance": int(np.bincount(lobes[off]).argmax()) if off.any() else None,
@@ -150,9 +150,8 @@ def tip_force(runs: xr.Dataset, rom: Rom) -> Numbers | None:
     """
     if (main := peak_of(runs, rom, 4)) is None:
         return None
-    run = runs.isel(speed_over_f1=main.index)
     samples = scene_of(runs).record.samples_per_round
-    last = run["history"].values[0, -SPECTRUM_ROUNDS * samples :] / leading_gap(runs)
+    last = runs["history"].values[main.index, 0, -SPECTRUM_ROUNDS * samples :] / leading_gap(runs)
     return {
         "peaks": {str(k): peak(runs, rom, k) for k in (4, 6)},
         "statuses": statuses(runs),

@@ -70,8 +70,11 @@ def editions(table: str, growth: str = "", model: str = "") -> dict[str, Numbers
     ``growth``: file of ``growth_of`` the same table; ``model``: of the reduced models.
     """
     model_numbers = read_json(model) if model else {}
-    by_edition = numbers_of(read_json(table), read_json(growth) if growth else {})
-    return {name: numbers | model_numbers for name, numbers in by_edition.items()}
+    long = read_json(growth) if growth else {}
+    return {
+        name: numbers | model_numbers
+        for name, numbers in numbers_of(read_json(table), long).items()
+    }
 
 
 def numbers_of(rows: Sequence[ExperimentRow], long: Mapping[str, Any]) -> dict[str, Numbers]:
