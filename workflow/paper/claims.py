@@ -184,15 +184,9 @@ def shifts(numbers: Numbers) -> Finding:
 def higher_peak(numbers: Numbers) -> Finding:
     """C12: a datum of the identification."""
     soft, stiff = (_peak(numbers, part, 4) for part in ("e1", "e10"))
+    name = "‖Y‖ at k = 4, E = 10 over E = 1"
     return Finding(
-        statements=(
-            more(
-                "‖Y‖ at k = 4, E = 10 over E = 1",
-                stiff["amplitude"] / soft["amplitude"],
-                1,
-                calibrated=True,
-            ),
-        ),
+        statements=(more(name, stiff["amplitude"] / soft["amplitude"], 1, calibrated=True),),
         shown={"largest u_r there": stiff["largest"] / soft["largest"]},
     )
 
