@@ -22,7 +22,7 @@ from geometry.elsewhere import MatricesElsewhere
 from simulate.scene import Scene
 from simulate.sweeps.result_types import numbers_of
 from workflow.markdown import change, table, two_digits
-from workflow.paper import blocks
+from workflow.paper import conclusions
 from workflow.study import interface, mesh_convergence, trade_table
 from workflow.study.stability import told as stability
 from workflow.summary import (
@@ -140,7 +140,7 @@ def kept(text: str) -> str:
 TRADE = "results/experiments/trade/table.json"
 KEPT = "workflow/study/kept"  # last tables of studies that have left the project
 COMPUTED = (
-    *blocks.COMPUTED,
+    *conclusions.COMPUTED,
     ("printed", "results/summary.json", printed),
     ("summary", "results/summary.json", scenes),
     ("mesh", "results/experiments/mesh/table.json", mesh_convergence.table),

@@ -15,7 +15,7 @@ from workflow.paper.verdict import Finding, Value, judge, less, more, uncertaint
 
 
 def peak(over_crossing, **others):
-    """A peak as ``workflow.paper.peaks`` has it."""
+    """A peak as ``workflow.paper.grid`` has it."""
     return {"over_crossing": over_crossing, "deepest_wear": 1.0, "between_lobes": 0.1} | others
 
 

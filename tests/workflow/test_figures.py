@@ -63,15 +63,12 @@ from workflow.jobs.figure import origins, read
 from workflow.many.design_rows import FORMAT, save as save_table
 from workflow.many.sobol import Sobol, indices
 from workflow.paper.figures import (
-    around,
     blade as blade_and_patches,
     coatings,
+    compared,
     footprint,
     laws,
-    long_times,
     marked,
-    resolution,
-    spectrograms,
 )
 from workflow.paper.measure import coating
 from workflow.study import mesh_convergence
@@ -405,11 +402,9 @@ FIGURES = {
     "fig03": lambda get: marked.crossings(apart(get("rom")), get("check")),
     "fig04": lambda get: footprint.draw(*read(footprint, get("footprint_files"))),
     "fig05": lambda get: laws.draw(),
-    "fig06": lambda get: around.shapes(*get("shapes")),
-    "fig07": lambda get: resolution.wear(*read(resolution, get("densities"), "wear")),
-    "fig08": lambda get: resolution.displacement(
-        *read(resolution, get("histories"), "displacement")
-    ),
+    "fig06": lambda get: compared.shapes(*get("shapes")),
+    "fig07": lambda get: compared.wear(*read(compared, get("densities"), "wear")),
+    "fig08": lambda get: compared.displacement(*read(compared, get("histories"), "displacement")),
     "fig10": lambda get: spectra.over_speeds(get("seen")),
     "fig10 with twins": lambda get: spectra.over_speeds(get("twinned")),
     "spectra in rpm": lambda get: spectra.over_speeds(get("of_user")),
@@ -417,23 +412,25 @@ FIGURES = {
     "gauge": lambda get: spectra.of_gauge(get("strained")),
     "fig11": lambda get: wear.over_speeds(get("seen")),
     "fig11 with twins": lambda get: wear.over_speeds(get("twinned")),
-    "fig12": lambda get: around.profiles([get("seen"), named(get("twinned"), "paper-e10")]),
+    "fig12": lambda get: compared.profiles([get("seen"), named(get("twinned"), "paper-e10")]),
     "fig13": lambda get: coatings.peaks(get("grid")),
     "fig13-k6": lambda get: coatings.peaks(get("grid"), order=6),
-    "fig16": lambda get: spectrograms.draw(*read(spectrograms, get("spectrogram_files"))),
+    "fig16": lambda get: compared.spectrograms(
+        *read(compared, get("spectrogram_files"), "spectrograms")
+    ),
     "modes": lambda get: modes_at_rest.draw(*get("modes")),
     "gap": lambda get: loads.gap(get("rest")),
     "haigh": lambda get: stress.haigh(*STRESSES),
     "loads": lambda get: loads.panels(get("two_loads"), F1, "mine"),
-    "long times": lambda get: long_times.through_peak(
-        *read(long_times, get("long_files"), "through_peak")
+    "long times": lambda get: coatings.through_peak(
+        *read(coatings, get("long_files"), "through_peak")
     ),
     "design": lambda get: designs.draw(get("design_rows")),
     "sensitivity": lambda get: designs.sensitivity(*read(designs, get("sobol_rows"))),
     "stress": lambda get: stress.draw(*AT_ONE_SIDE),
     "mesh": lambda get: mesh_convergence.draw(get("of_meshes")),
     "stability": lambda get: stability.draw([*ENGAGED, *INTERMITTENT]),
-    "worst": lambda get: long_times.growth(*read(long_times, get("cases"), "growth")),
+    "worst": lambda get: coatings.growth(*read(coatings, get("cases"), "growth")),
 }
 
 
@@ -900,8 +897,8 @@ def test_a_grid_without_any_peak_is_drawn(grid):
 @pytest.mark.parametrize("status", ["sensitive", "unstable"])
 def test_a_run_without_a_valid_result_is_labelled(densities, tmp_path, status):
     path = save_runs(tmp_path / "c.nc", [0.35, 0.2], [worn(4)] * 2, status=status)
-    runs = read(resolution, SimpleNamespace(coarse=densities.coarse, fine=path), "wear")
-    (axes, *_) = resolution.wear(*runs).axes
+    runs = read(compared, SimpleNamespace(coarse=densities.coarse, fine=path), "wear")
+    (axes, *_) = compared.wear(*runs).axes
     assert status in axes.get_title()
     assert ("no result" in axes.get_title()) is (status == "unstable")
 
@@ -1011,7 +1008,7 @@ def test_speeds_without_a_sure_result_are_hatched(responses, module, lacks, band
 def test_a_profile_that_cannot_be_predicted_is_labelled(sweep, rom, twinned):
     """The wear of twins differs at 0.36, the peak is at 0.34."""
     moved = with_twins(sweep, rom, {"wear": twinned.sweep["departure"].values[:, 0]})
-    labels = [line.get_label() for line in around.profiles([twinned, moved]).axes[0].lines[:2]]
+    labels = [line.get_label() for line in compared.profiles([twinned, moved]).axes[0].lines[:2]]
     assert ["not predictable" in label for label in labels] == [False, True]
 
 

@@ -19,7 +19,7 @@ from simulate.scene import Contact, Harmonic, Profile, Scene
 from simulate.sweeps.dataset import save as save_sweep
 from workflow.figures import rendering
 from workflow.jobs.figure import read
-from workflow.paper.figures import around, blade as blade_and_patches, footprint
+from workflow.paper.figures import blade as blade_and_patches, compared, footprint
 from workflow.paper.figures.footprint import FootprintError, at_deepest, into_fresh
 
 PATCHES = 8
@@ -232,4 +232,4 @@ def shapes(paper, tmp_path_factory):
         run = xr.Dataset(status, {"speed_over_f1": [0.3]}, attrs_of(scene))
         save_sweep(run, folder / f"{name}.nc")
     files = SimpleNamespace(**{name: folder / f"{name}.nc" for name in scenes})
-    return read(around, files, "shapes")
+    return read(compared, files, "shapes")

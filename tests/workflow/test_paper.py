@@ -16,7 +16,7 @@ from workflow.many.plan import cases
 from workflow.paper import grid, measure, numbers
 from workflow.paper.cost import cost
 from workflow.paper.laws import slopes_over_closed_form
-from workflow.paper.peaks import worn_at
+from workflow.paper.grid import worn_at
 from workflow.paper.published import E, K
 
 WORKFLOW = Path(measure.__file__).parents[1]
@@ -304,7 +304,8 @@ def test_without_peaks_an_edition_has_neither_table_nor_growth(table):
     """Where the paper's worst coating alone has none, it has the table."""
     rows = [{"names": ["one"], "scene": "grid", "numbers": case} for case in table["cases"]]
     rows.append({"names": ["one"], "scene": "rigid", "numbers": peak_at(1.2, 0.37)})
-    grid.coating_of(table, 10.0, 4.55)["peaks"]["4"] = None
+    (of_paper,) = [case for case in table["cases"] if (case["E"], case["K"]) == (10.0, 4.55)]
+    of_paper["peaks"]["4"] = None
     assert numbers.numbers_of(rows, numbers.growth_of(rows))["one"].keys() == {"grid"}
     for case in table["cases"]:
         case["peaks"]["4"] = None

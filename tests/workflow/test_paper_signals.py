@@ -8,7 +8,7 @@ from made_sweeps import ROUNDS, SAMPLES, made_rom, save_runs
 
 from simulate.signals import spectrum
 from workflow.jobs.figure import read
-from workflow.paper.figures import spectrograms
+from workflow.paper.figures import compared
 from workflow.paper.measure import share_of_mode_1, spectral_entropy
 
 SPEED = 0.35
@@ -19,7 +19,7 @@ def test_a_harmonic_has_its_amplitude_in_the_spectrogram():
     """Order 4 all along, order 8 in the second half: on bins of the window of two rounds."""
     late = TIME > ROUNDS / 2
     u_r = 0.7 * np.cos(2 * np.pi * 4 * TIME) + 0.2 * late * np.cos(2 * np.pi * 8 * TIME)
-    time, orders, amplitude = spectrograms.spectrogram(u_r, SAMPLES)
+    time, orders, amplitude = compared.spectrogram(u_r, SAMPLES)
     assert (time[0], time[-1]) == (1, ROUNDS - 1)  # windows of two rounds that the run fills
     assert np.diff(time) == pytest.approx(1 / 16)
     later, before = time >= ROUNDS / 2 + 1, time <= ROUNDS / 2 - 1
@@ -54,7 +54,7 @@ def test_numbers_are_of_the_last_ten_rounds(tmp_path, files):
     spectrum[1, 40] = 1.0
     speeds = [0.33, SPEED, 0.37]
     files.without = save_runs(tmp_path / "c.nc", speeds, u_r=[u_r] * 3, spectrum=spectrum)
-    first = spectrograms.draw(*read(spectrograms, files)).axes[0]
+    first = compared.spectrograms(*read(compared, files, "spectrograms")).axes[0]
     bins = 10 * SAMPLES // 2  # all: 20 f1(0) lies beyond
     # energies 9 to 1, so amplitudes 3 to 1
     entropy = -(0.75 * np.log(0.75) + 0.25 * np.log(0.25)) / np.log(bins)

@@ -18,7 +18,7 @@ from simulate.scene import Scene
 from simulate.scene.laws.plastic import Plastic
 from workflow.figures import table
 from workflow.jobs.figure import read
-from workflow.paper.blocks import coatings, verdicts
+from workflow.paper.conclusions import coatings, verdicts
 from workflow.readme import (
     COMPUTED,
     PAGES,

@@ -1,13 +1,21 @@
-"""Conclusions: the paper's claims that hold, where, and studies that would decide the rest."""
+"""Texts on the paper's claims: where they hold, and what would decide the rest.
 
+And the blocks of pages that the paper fills, for ``workflow.readme``.
+"""
+
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from math import sqrt
 from textwrap import fill
 from typing import Any
 
-from workflow.markdown import WIDTH, cell
-from workflow.paper.report import Row, named
+from workflow.markdown import WIDTH, cell, table
+from workflow.paper import long as long_times
+from workflow.paper.claims import COATING
+from workflow.paper.published import SHIFTS
+from workflow.paper.report import Row, named, short
 from workflow.paper.verdict import HOLDS
+from workflow.summary import OVER_F1, OVER_GAP, over_gap, peaks
 
 FIT, DATA = "K = 4.55, printed", "with C12 and C16"  # whose medoid the scenes of the paper take
 NEARLY_ALL, HARDLY_ANY = 0.9, 0.1  # share of the draws
@@ -48,6 +56,13 @@ of rub marks away from resonance shows this; the paper's two (C15) were no datum
 slow rub shows the largest distortion; a ring-down without contact shows damping; an indentation by
 the tip shows the unit of E times footprint over thickness, and no more than this product enters the
 contact force."""
+OF_MODEL = 10  # claims on model and method, the first ones
+PARAGRAPH = """\
+Of the paper's {model} statements on its model and method, {held} hold here; of {silent} the
+paper gives no number. Of its {motion} statements on how the blade vibrates and the liner wears,
+{data} served to infer or set what it leaves open; of the other {predicted}, {holding} hold on the
+blade inferred, {in_kind} of them with other numbers than the paper's. Not found there: {differs};
+undecided, within the error of our runs: {undecided}."""
 
 
 def text(claims: Sequence[Row], identified: Mapping[str, Any], long: Mapping[str, Any]) -> str:
@@ -149,3 +164,56 @@ def _experiment(identified: Mapping[str, Any]) -> str:
         four=100 * taken["four_places"],
         four_before=100 * prior["four_places"],
     )
+
+
+def coatings(summary: Mapping[str, Any]) -> str:
+    """Critical speeds, amplitudes and wear of both coatings at the two main engine orders."""
+    by_scene = {
+        (scene["scene"], str(row["k"])): row for scene, row in peaks(summary) if 1 in row["modes"]
+    }
+    rows = [
+        [COATING[part], k, *cells[:2], f"{paper:.3f}", *cells[2:]]
+        for (part, k), (paper, _) in SHIFTS.items()
+        if (row := by_scene.get((f"paper-{part}", k))) and (cells := over_gap(row))
+    ]
+    return table(["coating", "k", *OVER_F1, "in the paper", *OVER_GAP], rows)
+
+
+def verdicts(judged: Sequence[Mapping[str, Any]]) -> str:
+    """Three sentences on the paper's claims for a reader who does not know them."""
+    model, motion = (
+        Counter(row["verdict"] for row in of) for of in (judged[:OF_MODEL], judged[OF_MODEL:])
+    )
+    held, holding = (sum(of[verdict] for verdict in HOLDS) for of in (model, motion))
+    data = motion["calibrated"]
+    return fill(
+        PARAGRAPH.format(
+            model=model.total(),
+            held=held,
+            silent=model["not comparable"],
+            motion=motion.total(),
+            data=data,
+            predicted=motion.total() - data,
+            holding=holding - data,
+            in_kind=motion["reproduced in kind"],
+            **{
+                verdict: ", ".join(
+                    f'"{row["says"]}"' for row in judged if row["verdict"] == verdict
+                )
+                or "none"
+                for verdict in ("differs", "undecided")
+            },
+        ),
+        WIDTH,
+    )
+
+
+# block, file that holds its numbers, function that writes them
+COMPUTED = (
+    ("found", "results/summary.json", coatings),
+    ("verdicts", "results/paper/claims.json", verdicts),
+    ("claims", "results/paper/claims.json", short),
+    ("conclusions", "results/paper/conclusions.md", str),
+    ("cost", "results/paper/cost.md", str),
+    ("long", "results/paper/long-times.json", long_times.table),
+)

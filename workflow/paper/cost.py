@@ -1,13 +1,12 @@
 """Cost of the targets, from the benchmark files of their jobs, and CPU time from their logs."""
 
-import csv
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
+import pandas as pd
+
 from workflow.job_cost import cpu_seconds
 from workflow.markdown import table
-
-HEAD = ["target", "jobs measured", "one after another (s)", "CPU (s)", "longest job (s)"]
 
 
 def cost(targets: Mapping[str, Iterable[str | Path]]) -> str:
@@ -16,7 +15,8 @@ def cost(targets: Mapping[str, Iterable[str | Path]]) -> str:
     The CPU time is that of their logs, where they have it: of a longer job a benchmark file has the
     first 15 s. Times do not depend on when the jobs ran, at once or with pauses between them.
     """
-    return table(HEAD, [[target, *_sums(folders)] for target, folders in targets.items()]) + "\n"
+    head = ["target", "jobs measured", "one after another (s)", "CPU (s)", "longest job (s)"]
+    return table(head, ([target, *_sums(folders)] for target, folders in targets.items())) + "\n"
 
 
 def _sums(folders: Iterable[str | Path]) -> list[str]:
@@ -30,8 +30,6 @@ def _sums(folders: Iterable[str | Path]) -> list[str]:
 
 def _job(file: Path) -> tuple[float, float]:
     """Wall and CPU time of a job, s."""
-    with file.open(newline="") as text:
-        row = next(csv.DictReader(text, delimiter="\t"))
+    (row,) = pd.read_csv(file, sep="\t", na_values="-").fillna(0.0).to_dict("records")
     log = file.parents[1] / "logs" / f"{file.stem}.log"
-    sampled = float(row["cpu_time"].replace("-", "") or 0)
-    return float(row["s"]), cpu_seconds(log, sampled)
+    return float(row["s"]), cpu_seconds(log, float(row["cpu_time"]))

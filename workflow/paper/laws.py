@@ -43,11 +43,7 @@ def slopes_over_closed_form() -> dict[str, float]:
     ratios = {}
     for law in (law for law in COMPARED if law.kind == "plastic"):
         strain, stress = (np.ptp(path, axis=1) for path in loop(law, STRAINS))
-        closed = {
-            "loading": (LOADING_ON, law.E * law.K / (law.E + law.K)),
-            "unloading": (UNLOADING, law.E),
-        }
-        for name, (branch, slope) in closed.items():
-            found = float(stress[branch] / strain[branch])
-            ratios[f"{name}, E = {law.E:g}, K = {law.K:g}"] = found / slope
+        slopes, name = stress / strain, f"E = {law.E:g}, K = {law.K:g}"
+        ratios[f"loading, {name}"] = float(slopes[LOADING_ON] / (law.E * law.K / (law.E + law.K)))
+        ratios[f"unloading, {name}"] = float(slopes[UNLOADING] / law.E)
     return ratios

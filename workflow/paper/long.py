@@ -23,14 +23,14 @@ def numbers(
     ``long``: sweeps at the same speeds, each from where the one before ended; the others go through
     the peak, as ``SWEEPS`` calls them.
     """
-    through = {"rest": rest, "run_up": run_up, "run_down": run_down, "on_worn": on_worn}
+    through = zip(SWEEPS, (rest, run_up, run_down, on_worn), strict=True)
     return {
         "rounds": np.cumsum([scene_of(runs).rounds for runs in long]).tolist(),
         "speeds": long[0]["speed_over_f1"].values.tolist(),
         "amplitude": [along_order(runs, ENGINE_ORDER).tolist() for runs in long],
         "wear": [_deepest(runs).tolist() for runs in long],
         "status": [runs["status"].values.tolist() for runs in long],
-        "through": {name: _way(runs) for name, runs in through.items()},
+        "through": {name: _way(runs) for name, runs in through},
     }
 
 
@@ -52,7 +52,7 @@ def _way(runs: xr.Dataset) -> dict[str, float]:
 
 def table(numbers: Mapping[str, Any]) -> str:
     """Two tables: over the revolutions, or how a run ended before, and through the peak."""
-    head = ["‖Y‖ / gap at Ω / f₁(0) =", *(f"{speed:.3f}" for speed in numbers["speeds"])]
+    speeds = [f"{speed:.3f}" for speed in numbers["speeds"]]
     lines = [
         [f"after {rounds} revolutions", *map(cell, along, ends)]
         for rounds, along, ends in zip(
@@ -69,4 +69,4 @@ def table(numbers: Mapping[str, Any]) -> str:
         }
         for name, way in numbers["through"].items()
     ]
-    return f"{rows_of(head, lines)}\n\n{records(by_way)}"
+    return f"{rows_of(['‖Y‖ / gap at Ω / f₁(0) =', *speeds], lines)}\n\n{records(by_way)}"

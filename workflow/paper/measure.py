@@ -4,8 +4,7 @@ Speeds are over f1(0), displacements and wear over the gap at xi = 1/16. Displac
 xi = 1/16, wear is the mean over the leading eighth of the chord.
 """
 
-from collections.abc import Callable, Mapping, Sequence
-from functools import partial
+from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from time import process_time
 from timeit import repeat
@@ -27,16 +26,14 @@ from simulate.signals import leading_gap, leading_wear, lobe_count, spectrum
 from simulate.sweeps.crossings import crossing
 from simulate.sweeps.dataset import over_f1, scene_of, statuses
 from simulate.sweeps.peak import peak_of
-from workflow.paper.grid import worst
-from workflow.paper.peaks import peak
+from workflow.paper.grid import Numbers, peak, worst
 from workflow.paper.published import ENGINE_ORDER, WORST
 
 ORDERS = range(3, 15)  # engine orders along which the paper sees peaks, or could
+EVEN = np.arange(4, 15, 2)  # those of which it sees patterns in the wear
 NEAR = (0.97, 1.25)  # speeds over the crossing of k at which k lobes belong to that resonance
 HIGHEST, SPECTRUM_ROUNDS = 20, 10  # highest frequency of a spectrum over f1(0); its revolutions
 RESONANT = 0.05  # half-width of a peak over Omega_c
-
-type Numbers = dict[str, Any]
 
 
 def model(rom: Rom, check: RomCheck, paper: Rom, paper_check: RomCheck, nonlinear: Rom) -> Numbers:
@@ -85,7 +82,7 @@ def coating(runs: xr.Dataset, rom: Rom) -> Numbers:
     return {
         "peaks": {str(k): p for k in ORDERS if (p := peak(runs, rom, k))},
         "lobes": {"slowest": int(lobes[0]), "fastest": int(lobes[-1])},
-        "orders_in_wear": _orders_seen(rom, speeds, lambda k: lobes == k),
+        "orders_in_wear": _orders_seen(rom, speeds, lobes[:, None] == EVEN),
         "orders_in_harmonics": _orders_in_harmonics(rom, speeds, wear),
         "statuses": statuses(runs),
     }
@@ -100,17 +97,11 @@ def _worn(
     return ended["speed_over_f1"].values, wear, np.array([lobe_count(depth) for depth in wear], int)
 
 
-def _orders_seen(
-    rom: Rom, speeds: NDArray[np.float64], is_seen: Callable[[int], NDArray[np.bool_]]
-) -> list[int]:
-    """Even engine orders k that are seen (``is_seen``, by speed) at a speed near their crossing."""
-
-    def seen(k: int) -> bool:
-        """Whether the order is seen near its crossing."""
-        low, high = (share * crossing(rom, k) for share in NEAR)
-        return bool(is_seen(k)[(speeds >= low) & (speeds <= high)].any())
-
-    return [k for k in ORDERS if k % 2 == 0 and seen(k)]
+def _orders_seen(rom: Rom, speeds: NDArray[np.float64], seen: NDArray[np.bool_]) -> list[int]:
+    """Even engine orders that are ``seen`` (speeds, ``EVEN``) at a speed near their crossing."""
+    low, high = np.outer(NEAR, [crossing(rom, k) for k in EVEN])
+    near = (speeds[:, None] >= low) & (speeds[:, None] <= high)
+    return EVEN[(seen & near).any(axis=0)].tolist()
 
 
 def _orders_in_harmonics(
@@ -122,11 +113,8 @@ def _orders_in_harmonics(
     has that harmonic.
     """
     harmonics = np.abs(np.fft.rfft(wear, axis=1))
-    return _orders_seen(
-        rom,
-        speeds,
-        lambda k: harmonics[:, k] > np.maximum(harmonics[:, k - 2], harmonics[:, k + 2]),
-    )
+    beside = np.maximum(harmonics[:, EVEN - 2], harmonics[:, EVEN + 2])
+    return _orders_seen(rom, speeds, harmonics[:, EVEN] > beside)
 
 
 def two_five(runs: xr.Dataset, rom: Rom) -> Numbers:
@@ -135,10 +123,10 @@ def two_five(runs: xr.Dataset, rom: Rom) -> Numbers:
     Also the range of the angle of the lobes near the peak of EO 5.
     """
     peaks = {str(k): peak(runs, rom, k) for k in (4, 5, 6)}
-    critical = [p["Omega_c"] for p in peaks.values() if p]
     speeds, _, lobes = _worn(runs)
     swept = np.isin(speeds, over_f1(scene_of(runs).speeds.omega(rom.f1), rom))
-    off = swept & ~np.any([np.abs(speeds / c - 1) <= RESONANT for c in critical], axis=0)
+    at_peaks = [np.abs(speeds / p["Omega_c"] - 1) <= RESONANT for p in peaks.values() if p]
+    off = swept & ~np.any(at_peaks, axis=0)
     return {
         "peaks": peaks,
         "most_frequent_off_resonance": int(np.bincount(lobes[off]).argmax()) if off.any() else None,
@@ -162,9 +150,8 @@ def tip_force(runs: xr.Dataset, rom: Rom) -> Numbers | None:
     """
     if (main := peak_of(runs, rom, 4)) is None:
         return None
-    run = runs.isel(speed_over_f1=main.index)
     samples = scene_of(runs).record.samples_per_round
-    last = run["history"].values[0, -SPECTRUM_ROUNDS * samples :] / leading_gap(runs)
+    last = runs["history"].values[main.index, 0, -SPECTRUM_ROUNDS * samples :] / leading_gap(runs)
     return {
         "peaks": {str(k): peak(runs, rom, k) for k in (4, 6)},
         "statuses": statuses(runs),
@@ -314,7 +301,7 @@ def density_cost(scene: Scene, rom: Rom) -> Numbers:
 def _cpu_time(scene: Scene, rom: Rom) -> float:
     setup = prepare(scene, rom, scene.speeds.omega(rom.f1)[0])
     march(scene, setup)  # compiled before it is timed
-    return min(repeat(partial(march, scene, setup), timer=process_time, number=1, repeat=3))
+    return min(repeat(lambda: march(scene, setup), timer=process_time, number=1, repeat=3))
 
 
 def stress(stresses: Mapping[str, Any]) -> Numbers:

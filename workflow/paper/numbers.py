@@ -68,29 +68,39 @@ def editions(table: str, growth: str = "", model: str = "") -> dict[str, Numbers
     ``growth``: file of ``growth_of`` the same table; ``model``: of the reduced models.
     """
     model_numbers = read_json(model) if model else {}
-    by_edition = numbers_of(read_json(table), read_json(growth) if growth else {})
-    return {name: numbers | model_numbers for name, numbers in by_edition.items()}
+    long = read_json(growth) if growth else {}
+    return {
+        name: numbers | model_numbers
+        for name, numbers in numbers_of(read_json(table), long).items()
+    }
 
 
 def numbers_of(rows: Sequence[ComputedRow], long: Mapping[str, Any]) -> dict[str, Numbers]:
     """Numbers by edition and by part; ``long``: ``growth_of`` the same rows.
 
-    Of the coatings they are those of their table, as far as they have peaks.
+    Of the coatings they are those of their table, as far as they have peaks, and their growth
+    beside the peak of the bare casing, where there is one.
     """
-    return {
-        name: _parts(edition) | _long(edition, long.get(name, []))
-        for name, edition in _by_edition(rows).items()
-    }
+    found = {}
+    for name, edition in _by_edition(rows).items():
+        parts = {row["scene"]: row["numbers"] for row in edition if row["scene"] != "grid"}
+        coatings, cases = of_rows(edition), long.get(name, [])
+        if worst(coatings):
+            parts["grid"] = measure.table(coatings)
+        if "rigid" in parts and cases is not None:
+            parts["long"] = measure.long_run(parts["rigid"], cases)
+        found[name] = {part: numbers for part, numbers in parts.items() if part != "rigid"}
+    return found
 
 
 def growth_of(table: Sequence[ComputedRow]) -> dict[str, Any]:
     """Long runs of each edition with the table of E and K; None where a coating has no peak."""
     return {
         name: [
-            growth(
-                Scene.model_validate(row["settings"]), Rom.load(row["rom"]), long, row["numbers"]
-            )
-            for long, row in _long_rows(edition).items()
+            growth(Scene.model_validate(row["settings"]), Rom.load(row["rom"]), long, case)
+            for long, case in long_cases(of_rows(edition)).items()
+            for row in edition
+            if row["numbers"] is case
         ]
         or None
         for name, edition in _by_edition(table).items()
@@ -101,28 +111,3 @@ def growth_of(table: Sequence[ComputedRow]) -> dict[str, Any]:
 def _by_edition(rows: Sequence[ComputedRow]) -> dict[str, list[ComputedRow]]:
     names = dict.fromkeys(row["names"][0] for row in rows)
     return {name: [row for row in rows if row["names"][0] == name] for name in names}
-
-
-def _long_rows(rows: Sequence[ComputedRow]) -> dict[str, ComputedRow]:
-    """Sequence[ComputedRow] of the coatings whose growth is followed, by name."""
-    by_coating = {
-        (row["numbers"]["E"], row["numbers"]["K"]): row for row in rows if row["scene"] == "grid"
-    }
-    return {
-        name: by_coating[case["E"], case["K"]] for name, case in long_cases(of_rows(rows)).items()
-    }
-
-
-def _parts(rows: Sequence[ComputedRow]) -> Numbers:
-    """Numbers by part; of the coatings those of their table."""
-    numbers = {
-        row["scene"]: row["numbers"] for row in rows if row["scene"] not in ("grid", "rigid")
-    }
-    coatings = of_rows(rows)
-    return numbers | ({"grid": measure.table(coatings)} if worst(coatings) else {})
-
-
-def _long(rows: Sequence[ComputedRow], cases: Sequence[Mapping[str, Any]] | None) -> Numbers:
-    """Growth, and the peak of the bare casing, where there is one."""
-    bare = [row["numbers"] for row in rows if row["scene"] == "rigid"]
-    return {"long": measure.long_run(bare[0], cases)} if bare and cases is not None else {}

@@ -97,14 +97,13 @@ def claims(
     further : files of these runs by group, as ``editions`` takes them
     narrow, wide : what the identification found with either prior (workflow/paper/identified)
     """
-    groups = {
-        group: editions(**further[group]) if group in further else {}
-        for group in ("repeats", "other", "causes")
-    }
     return verdicts(
         CLAIMS,
         numbers,
-        **groups,
+        **{
+            group: editions(**further[group]) if group in further else {}
+            for group in ("repeats", "other", "causes")
+        },
         shares={
             "narrow prior": narrow["shares"]["holds"],
             "wide prior": wide["shares"]["holds"],

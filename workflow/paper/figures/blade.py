@@ -76,8 +76,7 @@ def _whole(axes: Axes, mesh: meshio.Mesh, camber: NDArray[np.float64]) -> None:
         end = start + 0.17 * height * np.array(unit) @ rendering.axes_of(VIEW)
         axes.annotate("", end, start, arrowprops=style.ARROW, annotation_clip=False)
         style.note(axes, end, label, offset, **SAID)
-    axes.set_xlim(left=-0.33 * height)  # room for the unit vectors
-    axes.set_anchor("N")
+    axes.set(xlim=(-0.33 * height, None), anchor="N")  # with room for the unit vectors
 
 
 def _tip(axes: Axes, mesh: meshio.Mesh, tip: DevelopedTip, xi: NDArray[np.float64]) -> None:
@@ -90,12 +89,14 @@ def _tip(axes: Axes, mesh: meshio.Mesh, tip: DevelopedTip, xi: NDArray[np.float6
     camber, eighth = tip.camber_line(), np.linspace(SLIVER, 1 / SHARES, 41)
     ahead = tip.pressure_side(eighth)
     behind = 2 * on_line(camber, eighth) - ahead
-    lines = (
-        np.vstack([ahead, behind[::-1]]),
-        on_line(camber, xi),
-        on_line(camber, np.array([LEADING])),
+    outline, nodes, place = (
+        MILLI * line[:, [2, 1]] * (1, tip.radius)
+        for line in (
+            np.vstack([ahead, behind[::-1]]),
+            on_line(camber, xi),
+            on_line(camber, np.array([LEADING])),
+        )
     )
-    outline, nodes, place = (MILLI * line[:, [2, 1]] * (1, tip.radius) for line in lines)
     axes.fill(*outline.T, **EIGHTH)
     axes.plot(*nodes.T, ".-", **NODES)
     axes.plot(*place.T, "o", **OUTPUT)
@@ -103,9 +104,8 @@ def _tip(axes: Axes, mesh: meshio.Mesh, tip: DevelopedTip, xi: NDArray[np.float6
     axes.set(aspect="equal", anchor="N", xlabel="$z$, downstream (mm)", ylabel=r"$r\,\theta$ (mm)")
     style.note(axes, nodes[0], "LE", (10, 3), **SAID)
     style.note(axes, nodes[-1], "TE", (-9, -4), **SAID)
-    within = axes.transAxes
-    axes.annotate("", (0.85, 0.95), (0.85, 0.65), xycoords=within, arrowprops=style.ARROW)
-    axes.text(0.81, 0.8, r"$\Omega$", transform=within, ha="right", va="center")
+    axes.annotate("", (0.85, 0.95), (0.85, 0.65), xycoords="axes fraction", arrowprops=style.ARROW)
+    axes.text(0.81, 0.8, r"$\Omega$", transform=axes.transAxes, ha="right", va="center")
 
 
 def _hats(axes: Axes, nodes: NDArray[np.float64]) -> None:
@@ -113,11 +113,18 @@ def _hats(axes: Axes, nodes: NDArray[np.float64]) -> None:
     for i, values in enumerate(hats(nodes, nodes).T):
         axes.plot(nodes, values, color=style.BLACK, linewidth=0.8, linestyle=("-", "--")[i % 2])
     axes.axvspan(0, 1 / SHARES, zorder=0, label="leading eighth: wear", **EIGHTH)
-    label = f"{style.PLACE}: displacement, gap $g$"
-    axes.plot(LEADING, 0, "o", clip_on=False, zorder=5, label=label, **OUTPUT)
-    eighths = ["0", *(f"{Fraction(i, SHARES)}" for i in range(1, SHARES)), "1"]
-    axes.set_xticks(np.arange(SHARES + 1) / SHARES, eighths)
+    axes.plot(
+        LEADING,
+        0,
+        "o",
+        clip_on=False,
+        zorder=5,
+        label=f"{style.PLACE}: displacement, gap $g$",
+        **OUTPUT,
+    )
     axes.set(
+        xticks=np.arange(SHARES + 1) / SHARES,
+        xticklabels=[str(Fraction(i, SHARES)) for i in range(SHARES + 1)],
         xlim=(0, 1),
         ylim=(0, 1),
         yticks=(0, 1),

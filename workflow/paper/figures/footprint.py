@@ -67,12 +67,17 @@ def at_deepest(of: Response) -> Footprint:
         )
     strips = prepare(of.scene, of.rom, float(runs["speed"][peak.index])).strips
     law, eps_p = strips.law, runs["wear"][peak.index, STRIP].values / strips.thickness
-    deepest = int(eps_p.argmax())
-    worst = float(eps_p[deepest])
+    deepest, worst = int(eps_p.argmax()), float(eps_p.max())
     # the largest strain of a rod with that plastic strain
     strain = brentq(lambda eps: law.stress(law.parameters, eps, 0.0)[1] - worst, worst, 1.0)
-    u_r = strips.g0[STRIP] - strips.d[deepest] + strain * strips.thickness
-    return footprint(strips, leading_gap(runs), strips.d, eps_p, deepest, u_r)
+    return footprint(
+        strips,
+        leading_gap(runs),
+        strips.d,
+        eps_p,
+        deepest,
+        u_r=strips.g0[STRIP] - strips.d[deepest] + strain * strips.thickness,
+    )
 
 
 def into_fresh(of: Response) -> Footprint:
@@ -93,8 +98,7 @@ def into_fresh(of: Response) -> Footprint:
     half, gap = strips.tip.half[STRIP], leading_gap(of.sweep)
     depth = max(profile_at(strips.tip, STRIP, s)[0] for s in (-half, half))
     fresh = np.zeros(strips.d.size)
-    u_r = strips.g0[STRIP] + min(1.25 * depth, gap)
-    return footprint(strips, gap, fresh, fresh, 0, u_r)
+    return footprint(strips, gap, fresh, fresh, 0, strips.g0[STRIP] + min(1.25 * depth, gap))
 
 
 def footprint(
@@ -117,23 +121,28 @@ def footprint(
     begin, finish = (np.clip(pitch * (k + side), -half, half) for side in (-0.5, 0.5))
     p, slope = np.array([profile_at(strips.tip, STRIP, s) for s in (begin + finish) / 2]).T
     delta = np.where(finish > begin, u_r - p + d[shown] - g0, 0.0).clip(0.0)
-    strains = zip(delta / l, eps_p[shown], strict=True)
-    sigma = np.array([law.stress(law.parameters, *of_rod)[0] for of_rod in strains])
+    sigma = np.array(
+        [
+            law.stress(law.parameters, eps, plastic)[0]
+            for eps, plastic in zip(delta / l, eps_p[shown], strict=True)
+        ]
+    )
     unworn = -d[shown] / gap
     worn = unworn + l * eps_p[shown] / gap
-    columns = {
-        "s": pitch * k,
-        "begin": begin,
-        "finish": finish,
-        "part": (finish - begin) / pitch,
-        "unworn": unworn,
-        "worn": worn,
-        "end": np.maximum(worn, unworn + delta / gap),
-        "sigma": sigma,
-        "slope": slope,
-    }
     first, *_, last = np.flatnonzero(sigma)
-    rods = pd.DataFrame(columns)[first - BESIDE : last + BESIDE + 1].reset_index(drop=True)
+    rods = pd.DataFrame(
+        {
+            "s": pitch * k,
+            "begin": begin,
+            "finish": finish,
+            "part": (finish - begin) / pitch,
+            "unworn": unworn,
+            "worn": worn,
+            "end": np.maximum(worn, unworn + delta / gap),
+            "sigma": sigma,
+            "slope": slope,
+        }
+    )[first - BESIDE : last + BESIDE + 1].reset_index(drop=True)
     ends = np.clip(rods.s.iloc[[0, -1]] + [-pitch / 2, pitch / 2], -half, half)
     along = np.linspace(*ends, 201)
     surface = [(u_r - g0 - profile_at(strips.tip, STRIP, s)[0]) / gap for s in along]
@@ -237,12 +246,9 @@ def _name_depths(axes: Axes, shown: Footprint) -> None:
     """Label the worn depth and the elastic compression of the rods."""
     covered = np.flatnonzero(shown.rods.part)
     before, last = shown.rods.iloc[covered[0] - 2], shown.rods.iloc[covered[-1]]
-    depths = (
-        ("worn depth", before.s, before.unworn, before.worn),
-        ("elastic", shown.tip[0, -1] + 0.15 * shown.pitch, last.worn, last.end),
-    )
-    for name, s, low, high in depths:
-        style.measure(axes, (MILLI * s, low), (MILLI * s, high), name, **DEPTH)
+    worn, elastic = MILLI * before.s, MILLI * (shown.tip[0, -1] + 0.15 * shown.pitch)
+    style.measure(axes, (worn, before.unworn), (worn, before.worn), "worn depth", **DEPTH)
+    style.measure(axes, (elastic, last.worn), (elastic, last.end), "elastic", **DEPTH)
     axes.text(
         0.02,
         0.95,
@@ -258,5 +264,5 @@ def _name_profile(axes: Axes, shown: Footprint) -> None:
     """Label p(s) near the lowest point of the profile, towards the middle."""
     along, surface = shown.tip
     x = (along[surface.argmin()] + along.mean()) / 2
-    ends = (MILLI * x, np.interp(x, along, surface)), (MILLI * x, surface.max())
-    style.measure(axes, *ends, "$p(s)$", **DEPTH)
+    on_tip, top = np.interp(x, along, surface), surface.max()
+    style.measure(axes, (MILLI * x, on_tip), (MILLI * x, top), "$p(s)$", **DEPTH)

@@ -37,37 +37,50 @@ def _explained(axes: Axes, law: Plastic) -> None:
     """Draw the stress-strain path of one law and label its slopes, limits and strains."""
     strain, stress = loop(law, STRAINS)
     axes.plot(strain.ravel(), stress.ravel(), color=style.BLACK)
-    for x, y in zip(strain, stress, strict=True):
-        i = POINTS // 3  # arrow heads before the middle: those of unloading and reloading differ
-        axes.annotate("", (x[i + 1], y[i + 1]), (x[i], y[i]), arrowprops=style.ARROW)
+    # arrow heads before the middle: those of unloading and reloading differ
+    for path in np.stack([strain, stress], axis=-1):
+        axes.annotate("", path[POINTS // 3 + 1], path[POINTS // 3], arrowprops=style.ARROW)
     alpha, hardened = strain[UNLOADING, -1], stress[UNLOADING, 0]
     axes.plot([0, strain_at(law, law.sigma_Y)], [law.sigma_Y] * 2, ":", **THIN)
     axes.plot([0, STRAINS[0], STRAINS[0]], [hardened, hardened, 0], ":", **THIN)
-    slopes = (
+    for branch, (x, right), label in (  # a triangle below the path, between two strains
         (LOADING, (0.06, 0.13), "$E$"),
         (UNLOADING_AGAIN, (0.65, 0.73), "$E$"),
         (LOADING_ON, (0.53, 0.62), r"$\frac{EK}{E+K}$"),
-    )
-    for branch, (x, right), label in slopes:  # a triangle below the path, between two strains
+    ):
         low, high = np.interp((x, right), np.sort(strain[branch]), np.sort(stress[branch]))
         axes.plot([x, right, right], [low, low, high], **THIN)
         axes.text(right + 0.01, (low + high) / 2, label, va="center")
-    axes.set(xlim=(0, 0.9), ylim=(0, 0.42), xlabel="strain", ylabel="stress")
-    axes.set_xticks([0, alpha, STRAINS[0]], ["0", r"$\alpha$", r"$\varepsilon$"])
-    axes.set_yticks([0, law.sigma_Y, hardened], ["0", r"$\sigma_Y$", r"$\sigma_Y + K\alpha$"])
+    axes.set(
+        xlim=(0, 0.9),
+        ylim=(0, 0.42),
+        xlabel="strain",
+        ylabel="stress",
+        xticks=[0, alpha, STRAINS[0]],
+        xticklabels=["0", r"$\alpha$", r"$\varepsilon$"],
+        yticks=[0, law.sigma_Y, hardened],
+        yticklabels=["0", r"$\sigma_Y$", r"$\sigma_Y + K\alpha$"],
+    )
     style.measure(axes, (0, LOW), (alpha, LOW), r"$\varepsilon^p = \alpha$", **PART)
     style.measure(axes, (alpha, LOW), (STRAINS[0], LOW), r"$\varepsilon^e$", **PART)
-    numbers = rf"$E$ = {law.E:g}, $K$ = {law.K:g}, $\sigma_Y$ = {law.sigma_Y:g}"
-    axes.set_title(numbers, loc="right", fontsize=7)
+    axes.set_title(
+        rf"$E$ = {law.E:g}, $K$ = {law.K:g}, $\sigma_Y$ = {law.sigma_Y:g}",
+        loc="right",
+        fontsize=7,
+    )
 
 
 def _compared(axes: Axes) -> None:
     """Draw the laws loaded to the same stresses, in their unit: softer ones are strained more."""
-    looks = ("--", style.VERMILLION), ("-", style.GREY), ("-.", style.BLUE), ("-", style.BLACK)
-    for law, (dashes, colour) in zip(COMPARED, looks, strict=True):
-        path = loop(law, (strain_at(law, 0.006), strain_at(law, 0.01)))
+    for law, dashes, colour in zip(
+        COMPARED,
+        ("--", "-", "-.", "-"),
+        (style.VERMILLION, style.GREY, style.BLUE, style.BLACK),
+        strict=True,
+    ):
+        ends = strain_at(law, 0.006), strain_at(law, 0.01)
         # reloading repeats unloading: not drawn
-        strain, stress = (np.delete(branches, RELOADING, axis=0) for branches in path)
+        strain, stress = np.delete(loop(law, ends), RELOADING, axis=1)
         axes.plot(100 * strain.ravel(), stress.ravel(), linestyle=dashes, color=colour)
         moduli = law.model_dump(include={"E", "K"}).items()
         name = "\n".join([law.kind, *(f"${letter}$ = {value:g}" for letter, value in moduli)])

@@ -16,11 +16,8 @@ from workflow.paper.published import CRITICAL, CROSSING, HALF_DIGIT, LOBES, expe
 
 def crossings(rom: Rom, check: RomCheck, operating: Mapping[str, Any] = campbell.PLAIN) -> Figure:
     """Campbell diagram with the crossings that the paper prints, half a digit to both sides."""
-    marks = Marks(
-        "crossings in the paper",
-        [(speed - HALF_DIGIT, speed + HALF_DIGIT, k) for k, speed in CROSSING.items()],
-    )
-    return campbell.draw(rom, check, marks, operating)
+    spans = [(speed - HALF_DIGIT, speed + HALF_DIGIT, k) for k, speed in CROSSING.items()]
+    return campbell.draw(rom, check, Marks("crossings in the paper", spans), operating)
 
 
 def critical(sweep: Response, part: str, operating: Mapping[str, Any] = NO_LINES) -> Figure:
