@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from itertools import groupby
 from math import isfinite
 from operator import itemgetter
-from typing import Any, TypedDict
+from typing import Any
 
 from simulate.sweeps.result_types import CriticalSpeed, mode_name, numbers_of, order_name
 from workflow import markdown
@@ -21,17 +21,11 @@ HEADS = [
 ]
 
 
-class Speed(TypedDict):
-    """A speed with its uncertainty."""
+class Critical(CriticalSpeed):
+    """A critical speed with its uncertainty."""
 
-    rpm: float
     rpm_error: float | None  # None, nan: not known
     least: bool  # a part of the error is not known
-    bound: bool  # at an end of a sweep
-
-
-class Critical(CriticalSpeed, Speed):
-    """A critical speed with its uncertainty."""
 
 
 class Margin(Critical):
@@ -124,7 +118,7 @@ def table(margins: Iterable[Margin]) -> list[list[str]]:
     ]
 
 
-def speed(row: Speed) -> str:
+def speed(row: Mapping[str, Any]) -> str:
     """A critical speed, rpm, with its uncertainty; one at an end of a sweep has none."""
     error = row["rpm_error"]
     if row["bound"] or not error:
@@ -170,8 +164,8 @@ def looked_at(campbell: Mapping[str, Any]) -> str:
     orders = (
         f"{row[0]} to {row[-1]}" if len(row) > 2 else ", ".join(map(str, row)) for row in each
     )
-    last = campbell["modes"]
-    return f"{f'modes 1 to {last}' if last > 1 else 'mode 1'} with EO {', '.join(orders)}"
+    modes = f"modes 1 to {campbell['modes']}" if campbell["modes"] > 1 else "mode 1"
+    return f"{modes} with EO {', '.join(orders)}"
 
 
 def _text(row: Margin) -> str:
