@@ -74,13 +74,11 @@ def printed(summary: Mapping[str, Any]) -> str:
 
 def inputs(counts: Mapping[str, Any]) -> str:
     """Inputs of the tester by kind, and how many were refused or read as they say."""
-    kinds = counts["kinds"]
-    good = ("refused", "right")
-    rows = [
-        [kind, total, *counted, total - sum(counted)]
-        for kind, by_result in kinds.items()
-        for total, counted in [(sum(by_result.values()), [by_result.get(name, 0) for name in good])]
-    ]
+    rows = []
+    for kind, by_result in counts["kinds"].items():
+        good = [by_result.get(name, 0) for name in ("refused", "right")]
+        total = sum(by_result.values())
+        rows.append([kind, total, *good, total - sum(good)])
     totals = ["all", *(sum(column) for column in zip(*(row[1:] for row in rows), strict=True))]
     return table(
         ["what is written", "inputs", "refused in a line", "read as it says", "anything else"],
@@ -95,7 +93,8 @@ def bricks(solved: Mapping[str, Any]) -> str:
         [
             f"{row['cells']:,} {row['kind']}",
             row["program"],
-            _nodes(row),
+            # of the file, and where they are others those that were solved for
+            " → ".join(f"{n:,}" for n in dict.fromkeys([row["nodes"], row["solved"]])),
             *_few(row["frequencies_Hz"]),
             *map(_farthest, row["frequencies_Hz"], limit),
             two_digits(row["cpu_s"]),
@@ -110,11 +109,6 @@ def bricks(solved: Mapping[str, Any]) -> str:
         ],
         [["limit of tetrahedra", "", "", *_few(limit), "", "", ""], *rows],
     )
-
-
-def _nodes(solved: Mapping[str, Any]) -> str:
-    """Nodes of a file, and where they are others those that were solved for."""
-    return " → ".join(f"{n:,}" for n in dict.fromkeys([solved["nodes"], solved["solved"]]))
 
 
 def _few(frequencies: Sequence[Sequence[float]]) -> list[str]:
@@ -301,16 +295,13 @@ def _branch_rows(branches: list[Schema], models: Schema, prefix: str) -> list[Ke
     others = [row for row in owners if row.key != tag_row.key]
     keys = [row.key for row in others]
     others.sort(key=lambda row: keys.index(row.key))  # the same key of two models, side by side
-    return [tag_row, *(_with_owners(row, owners[row], len(branches)) for row in others)]
-
-
-def _with_owners(row: KeyRow, owners: list[str], number: int) -> KeyRow:
-    """The row, led by the models that have it unless all have."""
-    return (
+    led = (  # by the models that have it unless all have
         row
-        if len(owners) == number
-        else row._replace(meaning=f"{', '.join(owners)}: {row.meaning}")
+        if len(owners[row]) == len(branches)
+        else row._replace(meaning=f"{', '.join(owners[row])}: {row.meaning}")
+        for row in others
     )
+    return [tag_row, *led]
 
 
 def _choices(names: Iterable[str]) -> str:

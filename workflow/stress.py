@@ -74,8 +74,10 @@ def write(
     )
     rows, found = [], {}
     for speed, (over_f1, Omega, trend, rounds) in enumerate(zip(*columns, strict=True)):
-        told = {"speed_over_f1": over_f1, "rpm": RPM * Omega, "trend": trend}
-        rows.append(told | {"missed": float(shapes.missed[speed])})
+        missed = float(shapes.missed[speed])
+        rows.append(
+            {"speed_over_f1": over_f1, "rpm": RPM * Omega, "trend": trend, "missed": missed}
+        )
         if kept[speed]:
             a = {n: with_rotation(u @ shapes.onto) for n, u in kept[speed].items()}
             found[speed] = at = stressed.worst(Omega, a)

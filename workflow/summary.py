@@ -404,8 +404,8 @@ def shown(scene: Mapping[str, Any]) -> list[tuple[list[str], list[list[str]]]]:
         for row in rows
     ]
     return [
-        (["EO", "mode", "rpm", *map(heads.get, motion), *AT_END, ""], motion_rows),
-        (["EO", "mode", "Ω / f₁(0)", "Hz", *map(heads.get, loads)], load_rows),
+        (["EO", "mode", "rpm", *(heads[column] for column in motion), *AT_END, ""], motion_rows),
+        (["EO", "mode", "Ω / f₁(0)", "Hz", *(heads[column] for column in loads)], load_rows),
     ]
 
 

@@ -23,10 +23,8 @@ DIFFERENCES = {  # of a run from another, by the name in the sweep
     "error": "relative error",
 }
 
-type Arrays = dict[str, NDArray[np.float64]]
 
-
-def arrays(response: Response) -> Arrays:
+def arrays(response: Response) -> dict[str, NDArray[np.float64]]:
     """Arrays by name, speeds first; lengths over the gap, amplitudes as their log10.
 
     along (speeds, orders); spectrum (speeds, bins); worn (speeds, angles) of the leading eighth;

@@ -135,7 +135,10 @@ def stage(snakemake: Any) -> Iterator[Teller]:
     os.dup2(log, 2)
     faulthandler.enable()
     _repeat_warnings(outside, snakemake)
-    watch, tell = _watch(outside, snakemake), Teller(outside, name_of(snakemake))
+    about = [str(value) for value in dict(snakemake.wildcards.items()).values()]
+    # a job is named by its rule, and the scene or blade, block or row that it is about
+    name = " ".join([snakemake.rule, *about[-2:]])
+    watch, tell = _watch(outside, snakemake), Teller(outside, name)
     begun = cpu_time()
     try:
         for path in snakemake.output:
@@ -164,12 +167,6 @@ def _watch(outside: int, snakemake: Any) -> subprocess.Popen:
     shown = ", ".join(reads[:NAMED]) + (", ..." if reads[NAMED:] else "")
     command = ["sh", "-c", WATCH, "sh", snakemake.rule, str(snakemake.log[0]), shown]
     return subprocess.Popen(command, stdin=subprocess.PIPE, stderr=outside)
-
-
-def name_of(snakemake: Any) -> str:
-    """The job: its rule, and the scene or blade, block or row that it is about."""
-    about = [str(value) for value in dict(snakemake.wildcards.items()).values()]
-    return " ".join([snakemake.rule, *about[-2:]])
 
 
 def _line(snakemake: Any, message: object) -> str:
