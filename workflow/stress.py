@@ -85,8 +85,10 @@ def write(
             if blade.fatigue:
                 last = recorded(sweep["motion"].values[speed])
                 k = at.stress.order(with_rotation(last @ shapes.onto))
-                seconds = 2 * np.pi * ENDURED / (k * Omega)
-                rows[-1] |= {"cycles": k * ceil(rounds), "endurance_s": seconds}
+                rows[-1] |= {
+                    "cycles": k * ceil(rounds),
+                    "endurance_s": 2 * np.pi * ENDURED / (k * Omega),
+                }
     moving = [speed for speed in found if rows[speed]["alternating"] > LEAST]
     most = min(moving, key=lambda speed: reserve(rows[speed]), default=None)
     fields = {"away from clamp and contact": stressed.airfoil[0].astype(float)}

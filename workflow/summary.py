@@ -193,16 +193,16 @@ def _scene(
         for peaks in (found, worst)
     )
     rub_peaks = [
-        margins.Critical(
-            what=f"rub peak ({row['course'].get('trend')})" if moves(row) else "rub peak",
-            modes=row["modes"],
-            k=row["k"],
-            rpm=row["rpm"],
-            quadratic_rpm=None,
-            bound=row["bound"],
-            rpm_error=row["rpm_error"],
-            least=row["least"],
-        )
+        {
+            "what": f"rub peak ({row['course'].get('trend')})" if moves(row) else "rub peak",
+            "modes": row["modes"],
+            "k": row["k"],
+            "rpm": row["rpm"],
+            "quadratic_rpm": None,
+            "bound": row["bound"],
+            "rpm_error": row["rpm_error"],
+            "least": row["least"],
+        }
         for row in rows
         if row["k"]
     ]

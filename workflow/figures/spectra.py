@@ -224,8 +224,10 @@ def of_gauge(sweep: Response, operating: Mapping[str, Any] = NO_LINES) -> Figure
     """As ``over_speeds``, of the strain along the first grid by the vibration."""
     first = sweep.sweep["gauge_strain"].isel(gauge=0)
     amplitudes = (SPEED, "bin"), [spectrum(motion) for motion in first.values]
-    displacements = ["along", "beside", "beside_order", "place"]
-    of_strain = sweep.sweep.drop_vars(displacements, errors="ignore")
+    of_strain = sweep.sweep.drop_vars(
+        ["along", "beside", "beside_order", "place"],  # of displacements
+        errors="ignore",
+    )
     strains = of_strain.assign(spectrum=amplitudes).assign_attrs(gap_m=STRAIN)
     return over_speeds(
         Strain(strains, sweep.rom),

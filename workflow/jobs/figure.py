@@ -45,12 +45,11 @@ def origins(paths: Iterable[str | Path]) -> str:
     geometry.base.provenance.ProvenanceError
         When a file holds no provenance.
     """
-    texts = (_origin(path) for path in paths if Path(path).suffix == ".nc")
+    texts = []
+    for path in (path for path in paths if Path(path).suffix == ".nc"):
+        with stored(path, "sweep or model") as dataset:
+            attrs = dataset.attrs
+        scene = f"scene {attrs['name']}, " if "name" in attrs else ""
+        model = Provenance.parse(attrs.get("rom") or attrs.get("provenance"), path)
+        texts.append(scene + model.summary())
     return "; ".join(dict.fromkeys(texts))
-
-
-def _origin(path: str | Path) -> str:
-    with stored(path, "sweep or model") as dataset:
-        attrs = dataset.attrs
-    scene = f"scene {attrs['name']}, " if "name" in attrs else ""
-    return scene + Provenance.parse(attrs.get("rom") or attrs.get("provenance"), path).summary()

@@ -56,10 +56,16 @@ def run(snakemake: Any) -> None:
     module = import_module(name)
     call = getattr(module, function)
     with stage(snakemake) as tell:
-        held = {"files": snakemake.input, "names": dict(snakemake.wildcards.items()), "tell": tell}
-        for part in (snakemake.input, snakemake.output, snakemake.params):
-            held |= part.items()
-        held |= {"report": tell.report, **snakemake.params.get("given", {})}
+        held = {
+            "files": snakemake.input,
+            "names": dict(snakemake.wildcards.items()),
+            "tell": tell,
+            **dict(snakemake.input.items()),
+            **dict(snakemake.output.items()),
+            **dict(snakemake.params.items()),
+            "report": tell.report,
+            **snakemake.params.get("given", {}),
+        }
         kinds = get_type_hints(call, include_extras=True)
         asked = {name: argument(kind, held[name]) for name, kind in kinds.items() if name in held}
         result = call(**asked)
@@ -165,8 +171,11 @@ def _watch(outside: int, snakemake: Any) -> subprocess.Popen:
     inputs = [*map(str, snakemake.input), str(snakemake.params.get("blade") or "settings")]
     reads = [path for path in inputs if not path.endswith(".py")]
     shown = ", ".join(reads[:NAMED]) + (", ..." if reads[NAMED:] else "")
-    command = ["sh", "-c", WATCH, "sh", snakemake.rule, str(snakemake.log[0]), shown]
-    return subprocess.Popen(command, stdin=subprocess.PIPE, stderr=outside)
+    return subprocess.Popen(
+        ["sh", "-c", WATCH, "sh", snakemake.rule, str(snakemake.log[0]), shown],
+        stdin=subprocess.PIPE,
+        stderr=outside,
+    )
 
 
 def _line(snakemake: Any, message: object) -> str:
