@@ -202,14 +202,13 @@ def table(subject: Subject, results: Mapping[str, list[Numbers] | str]) -> str:
 
 def _cell(column: Column, unchanged: Numbers, result: Numbers) -> str:
     """The number of the run itself; of another one its relative change."""
-    name = column.name
     if result is unchanged:
         return column.shown(unchanged)
     if not result:
         return "no result"
-    if not unchanged.get(name) or name not in result:
+    if not unchanged.get(column.name) or column.name not in result:
         return "-"
-    return markdown.change(result[name] / unchanged[name] - 1)
+    return markdown.change(result[column.name] / unchanged[column.name] - 1)
 
 
 @command

@@ -12,7 +12,7 @@ import shutil
 import sys
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 from pydantic import BaseModel
 
@@ -42,8 +42,6 @@ PAGES = (
     *("workflow/how-do-i.md", "workflow/paper.md", "fem/matrices.md", "fem/dolfinx.md"),
     *("tests/OTHERS.md", "tests/VERIFICATION.md", "CONTRIBUTING.md"),
 )
-
-type Pages = dict[str, str]  # text by path
 
 
 def scenes(summary: Mapping[str, Any]) -> str:
@@ -165,19 +163,11 @@ REQUIRED = "required"
 BOUNDS = {"exclusiveMinimum": ">", "minimum": ">=", "exclusiveMaximum": "<", "maximum": "<="}
 
 type Schema = dict[str, Any]  # JSON schema
+type KeyRow = tuple[str, str, str, str]  # a key, its meaning, what is allowed, its default
 
 
 class BlockError(UserError):
     """A generated block that is on no page or on two, that nothing fills, or without an end."""
-
-
-class KeyRow(NamedTuple):
-    """One key of a settings model, as the tables show it."""
-
-    key: str
-    meaning: str
-    allowed: str
-    default: str
 
 
 def settings_table(model: type[BaseModel]) -> str:
@@ -187,8 +177,8 @@ def settings_table(model: type[BaseModel]) -> str:
     return table(["key", "meaning", "allowed", "default"], rows)
 
 
-def read_pages(root: Path = Path()) -> Pages:
-    """All README files of the project in ``root``."""
+def read_pages(root: Path = Path()) -> dict[str, str]:
+    """Text of all README files of the project in ``root``, by path."""
     return {page: (root / page).read_text() for page in PAGES}
 
 
@@ -226,7 +216,7 @@ def _fault(name: str, pages: Sequence[str], filled: bool, whole: bool) -> str:
     return "" if whole else f"has no end {end}"
 
 
-def generated(pages: Mapping[str, str], folder: Path = Path()) -> Pages:
+def generated(pages: Mapping[str, str], folder: Path = Path()) -> dict[str, str]:
     """Pages with their tables of settings, and the results that ``folder`` holds.
 
     Raises
@@ -260,7 +250,7 @@ def _rows(schema: Schema, models: Schema, prefix: str) -> list[KeyRow]:
 
 
 def _key_rows(name: str, key: Schema, models: Schema) -> list[KeyRow]:
-    """KeyRow of a value, or those of the keys below."""
+    """Row of a value, or those of the keys below."""
     values = _values(key, models)
     items = [item for value in values for item in _values(value.get("items", {}), models)]
     for nested, below in ((values, f"{name}."), (items, f"{name}[].")):
@@ -268,7 +258,7 @@ def _key_rows(name: str, key: Schema, models: Schema) -> list[KeyRow]:
             if len(nested) == 1:
                 return _rows(nested[0], models, below)
             return _branch_rows(nested, models, below)
-    return [KeyRow(name, key["description"], _allowed(values + items), _default(key))]
+    return [(name, key["description"], _allowed(values + items), _default(key))]
 
 
 def _values(schema: Schema, models: Schema) -> list[Schema]:
@@ -291,17 +281,16 @@ def _branch_rows(branches: list[Schema], models: Schema, prefix: str) -> list[Ke
     for tag, branch in zip(tags, branches, strict=True):
         for row in _rows(branch, models, prefix):
             owners.setdefault(row, []).append(f"`{tag}`")
-    tag_row = KeyRow(f"{prefix}{name}", meaning, _choices(tags), default)
-    others = [row for row in owners if row.key != tag_row.key]
-    keys = [row.key for row in others]
-    others.sort(key=lambda row: keys.index(row.key))  # the same key of two models, side by side
-    led = (  # by the models that have it unless all have
-        row
-        if len(owners[row]) == len(branches)
-        else row._replace(meaning=f"{', '.join(owners[row])}: {row.meaning}")
-        for row in others
-    )
-    return [tag_row, *led]
+    rows = [(f"{prefix}{name}", meaning, _choices(tags), default)]
+    keys = [key for key, *_ in owners]
+    # the same key of two models side by side
+    for row in sorted(owners, key=lambda row: keys.index(row[0])):
+        key, meaning, *values = row
+        if len(owners[row]) < len(branches):
+            meaning = f"{', '.join(owners[row])}: {meaning}"
+        if key != f"{prefix}{name}":
+            rows.append((key, meaning, *values))
+    return rows
 
 
 def _choices(names: Iterable[str]) -> str:

@@ -74,9 +74,13 @@ def write(
     )
     rows, found = [], {}
     for speed, (over_f1, Omega, trend, rounds) in enumerate(zip(*columns, strict=True)):
-        missed = float(shapes.missed[speed])
         rows.append(
-            {"speed_over_f1": over_f1, "rpm": RPM * Omega, "trend": trend, "missed": missed}
+            {
+                "speed_over_f1": over_f1,
+                "rpm": RPM * Omega,
+                "trend": trend,
+                "missed": float(shapes.missed[speed]),
+            }
         )
         if kept[speed]:
             a = {n: with_rotation(u @ shapes.onto) for n, u in kept[speed].items()}
@@ -123,8 +127,7 @@ def revolutions(sweep: Sweep) -> list[Revolutions]:
         kept = {ceil(rounds): of_last} | dict(
             zip(which.astype(int).tolist(), strained, strict=True)
         )
-        with_result = kept.items() if status in WITH_RESULT else ()
-        known = {n: recorded(u) for n, u in with_result if n}
+        known = {n: recorded(u) for n, u in kept.items() if n and status in WITH_RESULT}
         runs.append({n: u for n, u in known.items() if len(u)})
     return runs
 
@@ -280,5 +283,9 @@ class Stressed:
         half = thickness(self.solid) / 2 if root == "sharp" else 0.0
         tip = self.points[self.solid.tip.ravel()]
         edges = {"LE": tip[tip[:, 2].argmin()].tolist(), "TE": tip[tip[:, 2].argmax()].tolist()}
-        too_near = half if distance < half else None
-        return {"root": root, "away_m": distance, "too_near": too_near, "edges": edges}
+        return {
+            "root": root,
+            "away_m": distance,
+            "too_near": half if distance < half else None,
+            "edges": edges,
+        }

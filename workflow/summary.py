@@ -276,8 +276,10 @@ def _unknown(
         "mesh": model_errors["mesh"] is None or "mesh" in failed,
         "fineness": bool((parts and not FINER & {*parts}) or failed & {*FINER, "patches"}),
     }
-    missing = [name for name, is_missing in is_unknown.items() if is_missing]
-    return {ALL: missing, "amplitude": ["speeds"] if "speeds" in failed else []}
+    return {
+        ALL: [name for name, is_missing in is_unknown.items() if is_missing],
+        "amplitude": ["speeds"] if "speeds" in failed else [],
+    }
 
 
 def _speed_error(results: Mapping[str, Any], peak: "Peak") -> float | None:
@@ -384,28 +386,32 @@ def shown(scene: Mapping[str, Any]) -> list[tuple[list[str], list[list[str]]]]:
     # the revolutions after which numbers are told that change further
     after = f" after {most} revolutions" * (most > 0)
     heads = {column: column.head + after * (column.name in GO_ON) for column in kept}
-    motion_rows = [
-        [
-            *_names(row),
-            margins.speed(row),
-            *(_cell(row, column) for column in motion),
-            *_end_of_run(row),
-            row["word"],
-        ]
-        for row in rows
-    ]
-    load_rows = [
-        [
-            *_names(row),
-            f"{row['over_f1']:.3f}",
-            f"{row['hz']:.1f}" if row["hz"] else "-",
-            *(_cell(row, column) for column in loads),
-        ]
-        for row in rows
-    ]
     return [
-        (["EO", "mode", "rpm", *(heads[column] for column in motion), *AT_END, ""], motion_rows),
-        (["EO", "mode", "Ω / f₁(0)", "Hz", *(heads[column] for column in loads)], load_rows),
+        (
+            ["EO", "mode", "rpm", *(heads[column] for column in motion), *AT_END, ""],
+            [
+                [
+                    *_names(row),
+                    margins.speed(row),
+                    *(_cell(row, column) for column in motion),
+                    *_end_of_run(row),
+                    row["word"],
+                ]
+                for row in rows
+            ],
+        ),
+        (
+            ["EO", "mode", "Ω / f₁(0)", "Hz", *(heads[column] for column in loads)],
+            [
+                [
+                    *_names(row),
+                    f"{row['over_f1']:.3f}",
+                    f"{row['hz']:.1f}" if row["hz"] else "-",
+                    *(_cell(row, column) for column in loads),
+                ]
+                for row in rows
+            ],
+        ),
     ]
 
 
@@ -488,11 +494,11 @@ def notes(scene: Mapping[str, Any]) -> list[str]:
         lines.append(f"Not known: {', '.join(unknown)}.")
     if scene["mu_crit"]:
         lines.append(f"The tip locks at a friction coefficient of {scene['mu_crit']:.3f} or more.")
-    cost = f"{scene['runs']} runs, {scene['answers_s']:.1f} s of CPU time"
     return [
         *lines,
         f"Error of the step: {scene['checks']}.",
-        f"Uncertainties: {cost}; the sweep: {scene['sweep_s']:.0f} s.",
+        f"Uncertainties: {scene['runs']} runs, {scene['answers_s']:.1f} s of CPU time; the sweep: "
+        f"{scene['sweep_s']:.0f} s.",
     ]
 
 

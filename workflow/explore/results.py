@@ -74,11 +74,13 @@ def facts(
     sweep, rom = response.sweep, response.rom
     speeds, frequencies = frequencies_over_speed(rom, campbell["modes"])
     energies = zip(sweep["energy"].values, sweep["ledger"].values.T, strict=True)
-    label = liner_and_tip(response.scene)
     return {
         "blade": blade,
         "scene": scene,
-        "label": label.replace("$", "").replace("\\sigma_Y", "σ_Y").replace("\n", " "),
+        "label": liner_and_tip(response.scene)
+        .replace("$", "")
+        .replace("\\sigma_Y", "σ_Y")
+        .replace("\n", " "),
         "place": response.place.replace("$\\xi$", "ξ"),
         "norms": response.units["speed"][0].scale == 1.0,
         "campbell": {"speeds": speeds.tolist(), "frequencies": frequencies.T.tolist()},

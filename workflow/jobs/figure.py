@@ -33,8 +33,11 @@ def read(figure: ModuleType, files: Any, function: str = "draw") -> Sequence[Any
     """
     readers = {Response: partial(Response.read, rom=getattr(files, "rom", None))}
     kinds = get_type_hints(getattr(figure, function), include_extras=True)
-    named = {name: kind for name, kind in kinds.items() if hasattr(files, name)}
-    return [argument(kind, getattr(files, name), readers) for name, kind in named.items()]
+    return [
+        argument(kind, getattr(files, name), readers)
+        for name, kind in kinds.items()
+        if hasattr(files, name)
+    ]
 
 
 def origins(paths: Iterable[str | Path]) -> str:
