@@ -46,23 +46,25 @@ PAGES = (
 
 def scenes(summary: Mapping[str, Any]) -> str:
     """All peaks of the scenes over f1(0) and the gap, and facts that no machine changes."""
-    rows = [
-        [
-            scene["scene"],
-            row["k"],
-            numbers_of(row["modes"]),
-            *over_gap(row),
-            row["lobes"],
-            row["word"],
-        ]
-        for scene, row in peaks(summary)
-    ]
-    head = ["scene", "k", "mode", *OVER_F1, *OVER_GAP, "lobes", "second runs"]
     facts = [
         " ".join([f"- {scene['scene']}: {about(scene)}.", *crossings_and_ends(scene)])
         for scene in summary["scenes"]
     ]
-    return "\n".join([table(head, rows), "", *facts])
+    peaks_told = table(
+        ["scene", "k", "mode", *OVER_F1, *OVER_GAP, "lobes", "second runs"],
+        [
+            [
+                scene["scene"],
+                row["k"],
+                numbers_of(row["modes"]),
+                *over_gap(row),
+                row["lobes"],
+                row["word"],
+            ]
+            for scene, row in peaks(summary)
+        ],
+    )
+    return "\n".join([peaks_told, "", *facts])
 
 
 def printed(summary: Mapping[str, Any]) -> str:

@@ -574,11 +574,6 @@ def margins_csv(summary: Mapping[str, Any]) -> str:
 
 def _record(scene: Mapping[str, Any], row: PeakRow) -> dict[str, Any]:
     """Cells of a row of the CSV file by their head."""
-    numbers = {
-        f"{column.name}{what} ({column.unit})": _digits(row[key].get(column.name), column.scale)
-        for column in COLUMNS
-        for what, key in (("", "values"), (" +-", "errors"), (" other", "other"))
-    }
     return {
         "scene": scene["scene"],
         "blade": scene["blade"],
@@ -601,7 +596,11 @@ def _record(scene: Mapping[str, Any], row: PeakRow) -> dict[str, Any]:
         "at end of sweep": int(row["bound"]),
         "lobes": row["lobes"],
         "stress rises towards": row["rises"],
-        **numbers,
+        **{
+            f"{column.name}{what} ({column.unit})": _digits(row[key].get(column.name), column.scale)
+            for column in COLUMNS
+            for what, key in (("", "values"), (" +-", "errors"), (" other", "other"))
+        },
     }
 
 

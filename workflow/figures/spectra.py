@@ -142,9 +142,15 @@ def _amplitudes(axes: Axes, response: Response, marks: Marks) -> None:
         along = unit.scale * along_order(response.sweep, k)
         axes.plot(response.speeds, along, linestyle=dashes, color=colour, label=f"EO {k}")
     _others(axes, response, curves)
-    shaded = _mark(axes, marks, curves)
+    handles, _ = axes.get_legend_handles_labels()
+    for low, high, k in marks.spans:  # in the colours of their orders
+        axes.axvspan(low, high, color=curves[k][1], alpha=SHADE, linewidth=0, zorder=0)
+        across = axes.get_xaxis_transform()
+        style.note(axes, ((low + high) / 2, 0), str(k), (0, 2), xycoords=across, ha="center")
+    if marks.spans:
+        handles.append(Patch(color=style.GREY, alpha=SHADE, linewidth=0, label=marks.label))
     axes.legend(
-        handles=[*axes.get_legend_handles_labels()[0], *shaded],
+        handles=handles,
         loc="center left",
         bbox_to_anchor=(1.12, 0.5),
         handlelength=1.6,
@@ -181,16 +187,6 @@ def _others(axes: Axes, response: Response, curves: Mapping[int, Any]) -> None:
                 response.speeds[near], along[near], color=style.GREY, linewidth=0.8, label=label
             )
             label = None
-
-
-def _mark(axes: Axes, marks: Marks, curves: Mapping[int, tuple[Any, str]]) -> list[Patch]:
-    """Shade the speeds of the marks in the colours of their orders; return their key."""
-    across = axes.get_xaxis_transform()
-    for low, high, k in marks.spans:
-        axes.axvspan(low, high, color=curves[k][1], alpha=SHADE, linewidth=0, zorder=0)
-        style.note(axes, ((low + high) / 2, 0), str(k), (0, 2), xycoords=across, ha="center")
-    shaded = [Patch(color=style.GREY, alpha=SHADE, linewidth=0, label=marks.label)]
-    return shaded if marks.spans else []
 
 
 def _name(axes: Axes, response: Response, peak: Peak, across: float) -> None:
