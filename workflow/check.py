@@ -5,7 +5,7 @@ twice the patches and strips, and on the model of a mesh finer by the square roo
 """
 
 import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from math import sqrt
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -128,9 +128,9 @@ class Subject(NamedTuple):
             model, along = _model(self, other), self.scene.speeds.over_f1 is not None
             other = other._replace(rom=lambda _: model, along=along)
         check_scene(other.scene(self.scene), other.rom(self.rom))
-        cases = (case_of(self.runs, self.scene, self.rom, peak) for peak in self.peaks)
         return [
-            at_peak(case.neighbour(other), p) for case, p in zip(cases, self.peaks, strict=True)
+            at_peak(case_of(self.runs, self.scene, self.rom, peak).neighbour(other), peak)
+            for peak in self.peaks
         ]
 
 
@@ -138,11 +138,8 @@ def expected(subject: Subject) -> float:
     """Time that the check will take, s: its runs, and the models that it makes."""
     runs = sum(run.cost for run in (ITSELF, *CHANGES))
     marches = cost(subject.scene, subject.rom, len(subject.peaks)).seconds * runs
-    logs = [
-        subject.folder.parent / "logs" / f"{job.format(subject.scene.directions)}.log"
-        for job in JOBS
-    ]
-    seconds = [cpu_seconds(log) for log in logs]
+    logs, directions = subject.folder.parent / "logs", subject.scene.directions
+    seconds = [cpu_seconds(logs / f"{job.format(directions)}.log") for job in JOBS]
     patches, mesh = sum(seconds[1:]), DEARER * sum(seconds) if subject.blade.mesh else 0.0
     return marches + (0.0 if subject.blade.of_points else patches) + mesh
 
@@ -169,16 +166,16 @@ def _model(subject: Subject, changed: Neighbour) -> Rom:
         raise SettingsError(
             "the mesh is a file: give a finer one as another blade", key="mesh_file"
         )
-    blade, source = changed.blade(subject.blade), subject.blade.file
-    name, source = subject.scene.blade, source and Path("workflow/blades", source)
+    blade = changed.blade(subject.blade)
     with TemporaryDirectory() as folder:
         mesh = subject.folder.parent / "blade.msh"
         if changed.remeshed:
             from fem.at_rest import build_mesh_at_rest
 
             mesh = Path(folder, "blade.msh")
+            source = blade.file and Path("workflow/blades", blade.file)
             build_mesh_at_rest(blade, mesh, source)
-        fom = assembled(blade, name, mesh)
+        fom = assembled(blade, subject.scene.blade, mesh)
         return reduce(fom, blade.basis, subject.scene.directions)[0]
 
 
@@ -189,36 +186,29 @@ def table(subject: Subject, results: Mapping[str, list[Numbers] | str]) -> str:
     """
     unchanged = results[ITSELF.name]
     columns = known_columns(unchanged)
-    rows = [
-        [_where(subject, peak), name, *_cells(columns, unchanged[number], result)]
-        for number, peak in enumerate(subject.peaks)
-        for name, numbers in results.items()
-        for result in [numbers if isinstance(numbers, str) else numbers[number]]
-    ]
+    rows = []
+    for number, peak in enumerate(subject.peaks):
+        rpm = f"{RPM_PER_HZ * subject.rom.f1 * peak.Omega_c:.0f} rpm"
+        where = ", ".join(filter(None, [peak.name, rpm]))
+        for name, result in results.items():
+            cells = (
+                [result, *[""] * (len(columns) - 1)]
+                if isinstance(result, str)
+                else [_cell(column, unchanged[number], result[number]) for column in columns]
+            )
+            rows.append([where, name, *cells])
     return markdown.table(["peak", "changed", *(column.head for column in columns)], rows)
 
 
-def _where(subject: Subject, peak: Peak) -> str:
-    rpm = f"{RPM_PER_HZ * subject.rom.f1 * peak.Omega_c:.0f} rpm"
-    return ", ".join(filter(None, [peak.name, rpm]))
-
-
-def _cells(columns: Sequence[Column], unchanged: Numbers, result: Numbers | str) -> list[str]:
-    """Numbers of the run itself; relative changes of another one, or its refusal."""
-    if isinstance(result, str):
-        return [result, *[""] * (len(columns) - 1)]
+def _cell(column: Column, unchanged: Numbers, result: Numbers) -> str:
+    """The number of the run itself; of another one its relative change."""
     if result is unchanged:
-        return [column.shown(unchanged) for column in columns]
-    return [_changed(unchanged, result, column.name) for column in columns]
-
-
-def _changed(unchanged: Numbers, result: Numbers, name: str) -> str:
-    """Relative change of a number from the unchanged run."""
+        return column.shown(unchanged)
     if not result:
         return "no result"
-    if not unchanged.get(name) or name not in result:
+    if not unchanged.get(column.name) or column.name not in result:
         return "-"
-    return markdown.change(result[name] / unchanged[name] - 1)
+    return markdown.change(result[column.name] / unchanged[column.name] - 1)
 
 
 @command

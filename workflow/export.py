@@ -58,8 +58,10 @@ def main(name: str = "", *rpm: str) -> None:
     for Omega in speeds:
         omega, Phi = subject.rom.modes(Omega)
         shapes = (basis.T @ Phi[:, :MODES]).T.reshape(-1, *basis.coordinates.shape)
-        named = zip(omega / (2 * np.pi), shapes, strict=False)
-        data = {f"mode {i} ({f:.1f} Hz)": shape for i, (f, shape) in enumerate(named, 1)}
+        data = {
+            f"mode {i} ({f:.1f} Hz)": shape
+            for i, (f, shape) in enumerate(zip(omega / (2 * np.pi), shapes, strict=False), 1)
+        }
         save_vtu(basis.coordinates, cells, data, folder / f"modes-{RPM * Omega:.0f}rpm.vtu")
     for Omega in asked if "motion" in subject.runs else []:
         run = subject.runs.isel({SPEED: int(abs(subject.runs["speed"].values - Omega).argmin())})
@@ -78,8 +80,9 @@ def everywhere(subject: Subject) -> tuple[NDArray[np.int64], Basis]:
     rows = np.zeros((subject.rom.n + len(basis.u_static), mesh.points.size))
     rows[:, dofs_at(mesh.points, basis.coordinates).ravel()] = [*basis.T.T, *basis.u_static]
     T, static = np.split(to_file(rows, source), [subject.rom.n])
-    points = to_file(mesh.points, source)
-    return turned(mesh.cells, source), replace(basis, T=T.T, u_static=static, coordinates=points)
+    return turned(mesh.cells, source), replace(
+        basis, T=T.T, u_static=static, coordinates=to_file(mesh.points, source)
+    )
 
 
 def steps(run: xr.Dataset, cells: NDArray[np.int64], basis: Basis, unit: str, folder: Path) -> None:

@@ -160,8 +160,9 @@ def _frames(faces: Faces, points: NDArray) -> Iterator[Frame]:
     if off[1] < ROUNDER * off[0]:
         others.reverse()
     for axis, hand, way in product(others, ("right-handed", "left-handed"), ("", "-")):
-        downstream = f"{way}{'xyz'[axis]}"
-        yield Frame(downstream=downstream, radial=f"{sign}{'xyz'[radial]}", rotation=hand)
+        yield Frame(
+            downstream=f"{way}{'xyz'[axis]}", radial=f"{sign}{'xyz'[radial]}", rotation=hand
+        )
 
 
 def _root_and_tip(

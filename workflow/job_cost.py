@@ -9,8 +9,6 @@ import re
 from pathlib import Path
 from resource import RUSAGE_CHILDREN, RUSAGE_SELF, getrusage
 
-from geometry.base import UserError
-
 STATUS = Path("/proc/self/status")  # of Linux; `VmHWM`: the largest memory of this program, kB
 USED = re.compile(r"^used (?P<seconds>[\d.]+) s of CPU, (?P<peak_MB>\d+) MB at most$", re.MULTILINE)
 
@@ -34,23 +32,12 @@ def usage(begun: float) -> str:
 def read_usage(log: str | Path) -> dict[str, float]:
     """CPU time (``seconds``) and peak memory (``peak_MB``) of the last job that wrote the log.
 
-    Raises
-    ------
-    UserError
-        When the log does not have them.
+    Empty where there is no log yet, or one of an older version or of a job that has failed.
     """
-    uses = list(USED.finditer(Path(log).read_text()))
-    if not uses:
-        raise UserError(
-            f"{log}: holds no time and memory of its job (older version): delete it, and the job "
-            "runs again"
-        )
-    return {name: float(value) for name, value in uses[-1].groupdict().items()}
+    uses = [*USED.finditer(Path(log).read_text())] if Path(log).is_file() else []
+    return {name: float(value) for use in uses[-1:] for name, value in use.groupdict().items()}
 
 
 def cpu_seconds(log: str | Path, otherwise: float = 0.0) -> float:
     """CPU time of the last job that wrote the log, s; ``otherwise`` where the log has none."""
-    try:
-        return read_usage(log)["seconds"]
-    except (OSError, UserError):  # no log yet, or of an older version or a job that has failed
-        return otherwise
+    return read_usage(log).get("seconds", otherwise)

@@ -7,9 +7,9 @@ from collections.abc import Iterable, Iterator, Mapping
 from itertools import groupby
 from math import isfinite
 from operator import itemgetter
-from typing import Any, TypedDict
+from typing import Any
 
-from simulate.sweeps.result_types import CriticalSpeed, mode_name, numbers_of, order_name
+from simulate.sweeps.result_types import mode_name, numbers_of, order_name
 from workflow import markdown
 
 WITHIN = 0.25  # of the operating speed: tables have the speeds within it
@@ -21,27 +21,10 @@ HEADS = [
 ]
 
 
-class Speed(TypedDict):
-    """A speed with its uncertainty."""
-
-    rpm: float
-    rpm_error: float | None  # None, nan: not known
-    least: bool  # a part of the error is not known
-    bound: bool  # at an end of a sweep
-
-
-class Critical(CriticalSpeed, Speed):
-    """A critical speed with its uncertainty."""
-
-
-class Margin(Critical):
-    """A critical speed with its margins from an operating speed."""
-
-    line: str | None  # name of the operating speed; None without
-    line_rpm: float | None
-    excited: str  # by what its engine order is: a harmonic of the casing, a side band, or ``SEEN``
-    speed_margin: float | None  # critical over operating speed less 1
-    frequency_margin: float | None  # (f - k Omega) / (k Omega) there; None of a rub peak
+# A critical speed with its uncertainty: keys of ``result_types.CriticalSpeed``, `rpm_error` (None,
+# nan: not known), and `least`: whether a part of the error is not known.
+type Critical = Mapping[str, Any]
+type Margin = Mapping[str, Any]  # with its margins from an operating speed, as of ``rows``
 
 
 def rows(
@@ -64,24 +47,27 @@ def rows(
     """
     excited = dict.fromkeys(seen, SEEN) | dict(campbell["excited"])
     crossings = [
-        Critical(
+        {
             **crossing,
-            rpm_error=relative * crossing["rpm"] + abs(crossing["quadratic_rpm"] - crossing["rpm"]),
-            least=least,
-        )
+            "rpm_error": relative * crossing["rpm"]
+            + abs(crossing["quadratic_rpm"] - crossing["rpm"]),
+            "least": least,
+        }
         for crossing in campbell["crossings"]
     ]
     return [
-        Margin(
-            line=name,
-            line_rpm=rpm,
+        {
+            "line": name,  # of the operating speed; None without
+            "line_rpm": rpm,
             **row,
-            excited=excited.get(row["k"], "" if row["quadratic_rpm"] else SEEN),
-            speed_margin=rpm and row["rpm"] / rpm - 1,
-            frequency_margin=rpm
+            # by what its engine order is: a harmonic of the casing, a side band, or ``SEEN``
+            "excited": excited.get(row["k"], "" if row["quadratic_rpm"] else SEEN),
+            "speed_margin": rpm and row["rpm"] / rpm - 1,
+            # (f - k Omega) / (k Omega) at the operating speed; None of a rub peak
+            "frequency_margin": rpm
             and row["quadratic_rpm"]
             and campbell["Hz"][name][row["modes"][0] - 1] / (row["k"] * rpm / 60) - 1,
-        )
+        }
         for name, rpm in (campbell["lines"] or {None: None}).items()
         for row in sorted(
             [*crossings, *peaks],
@@ -124,7 +110,7 @@ def table(margins: Iterable[Margin]) -> list[list[str]]:
     ]
 
 
-def speed(row: Speed) -> str:
+def speed(row: Critical) -> str:
     """A critical speed, rpm, with its uncertainty; one at an end of a sweep has none."""
     error = row["rpm_error"]
     if row["bound"] or not error:
@@ -170,8 +156,8 @@ def looked_at(campbell: Mapping[str, Any]) -> str:
     orders = (
         f"{row[0]} to {row[-1]}" if len(row) > 2 else ", ".join(map(str, row)) for row in each
     )
-    last = campbell["modes"]
-    return f"{f'modes 1 to {last}' if last > 1 else 'mode 1'} with EO {', '.join(orders)}"
+    modes = f"modes 1 to {campbell['modes']}" if campbell["modes"] > 1 else "mode 1"
+    return f"{modes} with EO {', '.join(orders)}"
 
 
 def _text(row: Margin) -> str:

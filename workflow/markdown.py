@@ -24,12 +24,11 @@ def table(head: Sequence[object], rows: Iterable[Iterable[object]]) -> str:
     | &lt;i> | <= 1 % |
     | --- | --- |
     """
-    lines = [head, ["---"] * len(head), *rows]
-    return "\n".join(f"| {' | '.join(map(_as_text, cells))} |" for cells in lines)
-
-
-def _as_text(cell: object) -> str:
-    return TAG.sub("&lt;", printable(str(cell))).replace("|", r"\|")
+    lines = (
+        [TAG.sub("&lt;", printable(str(cell))).replace("|", r"\|") for cell in cells]
+        for cells in [head, ["---"] * len(head), *rows]
+    )
+    return "\n".join(f"| {' | '.join(cells)} |" for cells in lines)
 
 
 def cell(value: object, unknown: str = "-") -> str:

@@ -12,7 +12,7 @@ import shutil
 import sys
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 from pydantic import BaseModel
 
@@ -43,28 +43,28 @@ PAGES = (
     *("tests/OTHERS.md", "tests/VERIFICATION.md", "CONTRIBUTING.md"),
 )
 
-type Pages = dict[str, str]  # text by path
-
 
 def scenes(summary: Mapping[str, Any]) -> str:
     """All peaks of the scenes over f1(0) and the gap, and facts that no machine changes."""
-    rows = [
-        [
-            scene["scene"],
-            row["k"],
-            numbers_of(row["modes"]),
-            *over_gap(row),
-            row["lobes"],
-            row["word"],
-        ]
-        for scene, row in peaks(summary)
-    ]
-    head = ["scene", "k", "mode", *OVER_F1, *OVER_GAP, "lobes", "second runs"]
     facts = [
         " ".join([f"- {scene['scene']}: {about(scene)}.", *crossings_and_ends(scene)])
         for scene in summary["scenes"]
     ]
-    return "\n".join([table(head, rows), "", *facts])
+    peaks_told = table(
+        ["scene", "k", "mode", *OVER_F1, *OVER_GAP, "lobes", "second runs"],
+        [
+            [
+                scene["scene"],
+                row["k"],
+                numbers_of(row["modes"]),
+                *over_gap(row),
+                row["lobes"],
+                row["word"],
+            ]
+            for scene, row in peaks(summary)
+        ],
+    )
+    return "\n".join([peaks_told, "", *facts])
 
 
 def printed(summary: Mapping[str, Any]) -> str:
@@ -74,13 +74,11 @@ def printed(summary: Mapping[str, Any]) -> str:
 
 def inputs(counts: Mapping[str, Any]) -> str:
     """Inputs of the tester by kind, and how many were refused or read as they say."""
-    kinds = counts["kinds"]
-    good = ("refused", "right")
-    rows = [
-        [kind, total, *counted, total - sum(counted)]
-        for kind, by_result in kinds.items()
-        for total, counted in [(sum(by_result.values()), [by_result.get(name, 0) for name in good])]
-    ]
+    rows = []
+    for kind, by_result in counts["kinds"].items():
+        good = [by_result.get(name, 0) for name in ("refused", "right")]
+        total = sum(by_result.values())
+        rows.append([kind, total, *good, total - sum(good)])
     totals = ["all", *(sum(column) for column in zip(*(row[1:] for row in rows), strict=True))]
     return table(
         ["what is written", "inputs", "refused in a line", "read as it says", "anything else"],
@@ -95,7 +93,8 @@ def bricks(solved: Mapping[str, Any]) -> str:
         [
             f"{row['cells']:,} {row['kind']}",
             row["program"],
-            _nodes(row),
+            # of the file, and where they are others those that were solved for
+            " → ".join(f"{n:,}" for n in dict.fromkeys([row["nodes"], row["solved"]])),
             *_few(row["frequencies_Hz"]),
             *map(_farthest, row["frequencies_Hz"], limit),
             two_digits(row["cpu_s"]),
@@ -110,11 +109,6 @@ def bricks(solved: Mapping[str, Any]) -> str:
         ],
         [["limit of tetrahedra", "", "", *_few(limit), "", "", ""], *rows],
     )
-
-
-def _nodes(solved: Mapping[str, Any]) -> str:
-    """Nodes of a file, and where they are others those that were solved for."""
-    return " → ".join(f"{n:,}" for n in dict.fromkeys([solved["nodes"], solved["solved"]]))
 
 
 def _few(frequencies: Sequence[Sequence[float]]) -> list[str]:
@@ -171,19 +165,11 @@ REQUIRED = "required"
 BOUNDS = {"exclusiveMinimum": ">", "minimum": ">=", "exclusiveMaximum": "<", "maximum": "<="}
 
 type Schema = dict[str, Any]  # JSON schema
+type KeyRow = tuple[str, str, str, str]  # a key, its meaning, what is allowed, its default
 
 
 class BlockError(UserError):
     """A generated block that is on no page or on two, that nothing fills, or without an end."""
-
-
-class KeyRow(NamedTuple):
-    """One key of a settings model, as the tables show it."""
-
-    key: str
-    meaning: str
-    allowed: str
-    default: str
 
 
 def settings_table(model: type[BaseModel]) -> str:
@@ -193,8 +179,8 @@ def settings_table(model: type[BaseModel]) -> str:
     return table(["key", "meaning", "allowed", "default"], rows)
 
 
-def read_pages(root: Path = Path()) -> Pages:
-    """All README files of the project in ``root``."""
+def read_pages(root: Path = Path()) -> dict[str, str]:
+    """Text of all README files of the project in ``root``, by path."""
     return {page: (root / page).read_text() for page in PAGES}
 
 
@@ -232,7 +218,7 @@ def _fault(name: str, pages: Sequence[str], filled: bool, whole: bool) -> str:
     return "" if whole else f"has no end {end}"
 
 
-def generated(pages: Mapping[str, str], folder: Path = Path()) -> Pages:
+def generated(pages: Mapping[str, str], folder: Path = Path()) -> dict[str, str]:
     """Pages with their tables of settings, and the results that ``folder`` holds.
 
     Raises
@@ -266,7 +252,7 @@ def _rows(schema: Schema, models: Schema, prefix: str) -> list[KeyRow]:
 
 
 def _key_rows(name: str, key: Schema, models: Schema) -> list[KeyRow]:
-    """KeyRow of a value, or those of the keys below."""
+    """Row of a value, or those of the keys below."""
     values = _values(key, models)
     items = [item for value in values for item in _values(value.get("items", {}), models)]
     for nested, below in ((values, f"{name}."), (items, f"{name}[].")):
@@ -274,7 +260,7 @@ def _key_rows(name: str, key: Schema, models: Schema) -> list[KeyRow]:
             if len(nested) == 1:
                 return _rows(nested[0], models, below)
             return _branch_rows(nested, models, below)
-    return [KeyRow(name, key["description"], _allowed(values + items), _default(key))]
+    return [(name, key["description"], _allowed(values + items), _default(key))]
 
 
 def _values(schema: Schema, models: Schema) -> list[Schema]:
@@ -297,20 +283,16 @@ def _branch_rows(branches: list[Schema], models: Schema, prefix: str) -> list[Ke
     for tag, branch in zip(tags, branches, strict=True):
         for row in _rows(branch, models, prefix):
             owners.setdefault(row, []).append(f"`{tag}`")
-    tag_row = KeyRow(f"{prefix}{name}", meaning, _choices(tags), default)
-    others = [row for row in owners if row.key != tag_row.key]
-    keys = [row.key for row in others]
-    others.sort(key=lambda row: keys.index(row.key))  # the same key of two models, side by side
-    return [tag_row, *(_with_owners(row, owners[row], len(branches)) for row in others)]
-
-
-def _with_owners(row: KeyRow, owners: list[str], number: int) -> KeyRow:
-    """The row, led by the models that have it unless all have."""
-    return (
-        row
-        if len(owners) == number
-        else row._replace(meaning=f"{', '.join(owners)}: {row.meaning}")
-    )
+    rows = [(f"{prefix}{name}", meaning, _choices(tags), default)]
+    keys = [key for key, *_ in owners]
+    # the same key of two models side by side
+    for row in sorted(owners, key=lambda row: keys.index(row[0])):
+        key, meaning, *values = row
+        if len(owners[row]) < len(branches):
+            meaning = f"{', '.join(owners[row])}: {meaning}"
+        if key != f"{prefix}{name}":
+            rows.append((key, meaning, *values))
+    return rows
 
 
 def _choices(names: Iterable[str]) -> str:

@@ -44,10 +44,7 @@ def motion(states: Iterable[NDArray[np.float64]], G: NDArray[np.float64], shapes
     weighted = [y / norm(y) for y in there if np.any(y)]
     _, _, V = np.linalg.svd(sum(y.T @ y for y in weighted) if weighted else np.eye(len(G)))
     first = V[:shapes].T
-    outside = [y - y @ first @ first.T for y in there]
-    missed = [
-        norm(out) / norm(y) if np.any(y) else 0 for out, y in zip(outside, there, strict=True)
-    ]
+    missed = [norm(y - y @ first @ first.T) / norm(y) if np.any(y) else 0 for y in there]
     return Shapes(np.linalg.solve(L.T, first), L @ first, np.array(missed, float))
 
 

@@ -73,8 +73,14 @@ def write(
     )
     rows, found = [], {}
     for speed, (over_f1, Omega, trend, rounds) in enumerate(zip(*columns, strict=True)):
-        told = {"speed_over_f1": over_f1, "rpm": RPM * Omega, "trend": trend}
-        rows.append(told | {"missed": float(shapes.missed[speed])})
+        rows.append(
+            {
+                "speed_over_f1": over_f1,
+                "rpm": RPM * Omega,
+                "trend": trend,
+                "missed": float(shapes.missed[speed]),
+            }
+        )
         if kept[speed]:
             a = {n: with_rotation(u @ shapes.onto) for n, u in kept[speed].items()}
             found[speed] = at = stressed.worst(Omega, a)
@@ -82,8 +88,10 @@ def write(
             if blade.fatigue:
                 last = recorded(sweep["motion"].values[speed])
                 k = at.stress.order(with_rotation(last @ shapes.onto))
-                seconds = 2 * np.pi * ENDURED / (k * Omega)
-                rows[-1] |= {"cycles": k * ceil(rounds), "endurance_s": seconds}
+                rows[-1] |= {
+                    "cycles": k * ceil(rounds),
+                    "endurance_s": 2 * np.pi * ENDURED / (k * Omega),
+                }
     moving = [speed for speed in found if rows[speed]["alternating"] > LEAST]
     most = min(moving, key=lambda speed: reserve(rows[speed]), default=None)
     fields = {"away from clamp and contact": stressed.airfoil[0].astype(float)}
@@ -118,8 +126,7 @@ def revolutions(sweep: Sweep) -> list[Revolutions]:
         kept = {ceil(rounds): of_last} | dict(
             zip(which.astype(int).tolist(), strained, strict=True)
         )
-        with_result = kept.items() if status in WITH_RESULT else ()
-        known = {n: recorded(u) for n, u in with_result if n}
+        known = {n: recorded(u) for n, u in kept.items() if n and status in WITH_RESULT}
         runs.append({n: u for n, u in known.items() if len(u)})
     return runs
 
@@ -275,5 +282,9 @@ class Stressed:
         half = thickness(self.solid) / 2 if root == "sharp" else 0.0
         tip = self.points[self.solid.tip.ravel()]
         edges = {"LE": tip[tip[:, 2].argmin()].tolist(), "TE": tip[tip[:, 2].argmax()].tolist()}
-        too_near = half if distance < half else None
-        return {"root": root, "away_m": distance, "too_near": too_near, "edges": edges}
+        return {
+            "root": root,
+            "away_m": distance,
+            "too_near": half if distance < half else None,
+            "edges": edges,
+        }

@@ -4,7 +4,7 @@ Light: Snakemake imports the summary, which has these lines. ``stress``: as of
 ``workflow.stress.write``.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 from simulate.scene import GROWING
@@ -65,14 +65,14 @@ def worst(stress: Mapping[str, Any], answer: Mapping[str, Any] | None) -> list[s
     at = ", ".join(f"{x:.4g}" for x in row["at"])
     rises = f"; it rises further towards {row['rises']}" if row["rises"] else ""
     beyond = "; it may rise further beyond the sweep" * (len(rows) > 1 and row in ends)
-    left_out = _left_out(rows, known)
+    grows = sum(row["trend"] == GROWING for row in known)
+    bounds = f"; at {grows} the motion still grows, and its stress is a lower bound" * bool(grows)
     margin = f", {'margin' if stress['root'] == 'fillet' else 'margin of the airfoil'} "
     return [
         f"Worst stress ({where(stress)}): {row['rpm']:.0f} rpm, "
         f"revolution {row['revolution']}, x, y, z = {at} {row['unit']}: mean {of['mean_stress']}, "
         f"alternating {of['alternating']}{margin + of['margin'] if 'margin' in of else ''}"
-        f"{rises}{beyond}. {left_out}",
-        *_cycles(row),
+        f"{rises}{beyond}. It is the worst of {len(known)} of {len(rows)} speeds{bounds}.",
         *_doubts(row, stress),
     ]
 
@@ -99,26 +99,14 @@ def _numbers(row: Mapping[str, Any], answer: Any) -> dict[str, str]:
     return {name: f"{shown}{units[name]} {share}" for name, (shown, share) in texts.items()}
 
 
-def _left_out(rows: Sequence[Mapping[str, Any]], known: Sequence[Mapping[str, Any]]) -> str:
-    """Of how many speeds it is the worst, and of how many it is a bound."""
-    grows = sum(row["trend"] == GROWING for row in known)
-    bounds = f"; at {grows} the motion still grows, and its stress is a lower bound" * bool(grows)
-    return f"It is the worst of {len(known)} of {len(rows)} speeds{bounds}."
-
-
-def _cycles(row: Mapping[str, Any]) -> list[str]:
-    """Cycles of the run beside those of the endurance."""
-    if "cycles" not in row:
-        return []
-    return [
-        f"The margin is to the endurance at 1e7 cycles: this run has {row['cycles']}, and 1e7 take "
-        f"{row['endurance_s']:.3g} s at that speed."
-    ]
-
-
 def _doubts(row: Mapping[str, Any], stress: Mapping[str, Any]) -> list[str]:
-    """Why the number may be another one."""
+    """Cycles of the run beside those of the endurance; why the number may be another one."""
     lines, alternating = [], row["alternating"]
+    if "cycles" in row:
+        lines.append(
+            f"The margin is to the endurance at 1e7 cycles: this run has {row['cycles']}, and 1e7 "
+            f"take {row['endurance_s']:.3g} s at that speed."
+        )
     if row["between"] > EARLIER * alternating:
         shown_there = shown(row | {"alternating": row["between"]}, "alternating")
         lines.append(

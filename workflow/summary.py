@@ -4,7 +4,7 @@ One row for each peak, with the uncertainty of each number or that it is not kno
 """
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from itertools import chain, zip_longest
+from itertools import zip_longest
 from math import ceil, isfinite, nan
 from pathlib import Path
 from textwrap import wrap
@@ -16,7 +16,7 @@ from geometry.tip import JUDGED
 from simulate.errors.model_errors import BEYOND
 from simulate.errors.neighbour import CHAOTIC, ONE_MOTION, TWO_MOTIONS
 from simulate.scene import DYING_OUT, GROWING, STEADY, TRENDS
-from simulate.sweeps.result_types import NO_CROSSING, Course, numbers_of
+from simulate.sweeps.result_types import NO_CROSSING, numbers_of
 from workflow import margins, markdown, stress_told
 from workflow.markdown import Number
 from workflow.stress_told import ALL
@@ -147,26 +147,7 @@ COURSE = {  # of ``Course``: unit and its scale from SI
 }
 
 
-class PeakRow(margins.Speed):
-    """A peak: speeds in rpm and over f1(0), all else in SI; None where it is not known."""
-
-    k: float | None  # engine order, or f / Omega of a line on none; None without a peak
-    k_error: float  # of the latter
-    modes: list[int]  # of which it may be; none where no crossing explains it
-    place: float  # chord fraction of its amplitude
-    over_f1: float
-    hz: float | None
-    over_crossing: float | None
-    status: str
-    word: str  # verdict of second runs, else the status
-    lobes: int | None
-    course: Course
-    unknown: dict[str, list[str]]  # parts of the uncertainty of ``ALL`` numbers, or of one
-    over_gap: dict[str, float | None]  # amplitude and wear over the gap, as figures have them
-    values: dict[str, float]
-    rises: str  # end of the airfoil towards which its stress rises further; else empty
-    errors: Mapping[str, float | None]
-    other: dict[str, float]  # of the second of two motions
+type PeakRow = Mapping[str, Any]  # of a peak, as of ``_row``
 
 
 def numbers(
@@ -206,23 +187,22 @@ def _scene(
         row["speed_over_f1"]: {key: row[key] for key in row.keys() - OF_STATES}
         for row in (stress["speeds"] if stress else [])
     }
-    found, worst = (map(Peak.of, results[name]) for name in ("peaks", "worst"))
-    found, worst = [*found], [*worst]
+    found, worst = ([*map(Peak.of, results[name])] for name in ("peaks", "worst"))
     rows, of_worst = (
         [_row(results, peak, stress_by_speed.get(peak.Omega_c, {})) for peak in peaks]
         for peaks in (found, worst)
     )
     rub_peaks = [
-        margins.Critical(
-            what=f"rub peak ({row['course'].get('trend')})" if moves(row) else "rub peak",
-            modes=row["modes"],
-            k=row["k"],
-            rpm=row["rpm"],
-            quadratic_rpm=None,
-            bound=row["bound"],
-            rpm_error=row["rpm_error"],
-            least=row["least"],
-        )
+        {
+            "what": f"rub peak ({row['course'].get('trend')})" if moves(row) else "rub peak",
+            "modes": row["modes"],
+            "k": row["k"],
+            "rpm": row["rpm"],
+            "quadratic_rpm": None,
+            "bound": row["bound"],
+            "rpm_error": row["rpm_error"],
+            "least": row["least"],
+        }
         for row in rows
         if row["k"]
     ]
@@ -245,36 +225,40 @@ def _scene(
 
 
 def _row(results: Mapping[str, Any], peak: "Peak", stress: Mapping[str, Any]) -> PeakRow:
-    """The row of a peak; ``stress``: that of its speed, empty where it is not known."""
+    """The row of a peak: speeds in rpm and over f1(0), all else in SI; None where it is not known.
+
+    ``stress``: that of its speed, empty where it is not known.
+    """
     f1, k, over_f1 = results["f1_Hz"], peak.k, peak.Omega_c
     of_stress = (*stress_told.STRESS, *stress_told.COUNTS)
     values = peak.numbers | {name: stress[name] for name in of_stress if name in stress}
     unexplained = NO_CROSSING * bool(k and not peak.modes)
     return {
-        "k": k,
-        "k_error": results["half_bin"],
-        "modes": [*peak.modes],
-        "place": peak.place,
+        "k": k,  # engine order, or f / Omega of a line on none; None without a peak
+        "k_error": results["half_bin"],  # of the latter
+        "modes": [*peak.modes],  # of which it may be; none where no crossing explains it
+        "place": peak.place,  # chord fraction of its amplitude
         "rpm": RPM_PER_HZ * f1 * over_f1,
         "rpm_error": _speed_error(results, peak),
-        "least": None in results["model_error"].values(),
+        "least": None in results["model_error"].values(),  # a part of that is not known
         "over_f1": over_f1,
         "hz": k and k * f1 * over_f1,
         "over_crossing": peak.over_crossing,
-        "bound": peak.at_end,
+        "bound": peak.at_end,  # of the sweep
         "status": peak.status,
+        # verdict of second runs, else the status
         "word": ", ".join(filter(None, [peak.verdict or peak.status, peak.beyond, unexplained])),
         "lobes": peak.lobes,
         "course": peak.course,
         "unknown": _unknown(results["model_error"], peak.parts),
-        "over_gap": {
+        "over_gap": {  # as figures have them
             "amplitude": peak.amplitude,
             "wear": (wear := values.get("wear")) and wear / results["gap_m"],
         },
         "values": values,
-        "rises": stress.get("rises", ""),
+        "rises": stress.get("rises", ""),  # end of the airfoil towards which its stress does
         "errors": peak.errors,
-        "other": peak.other,
+        "other": peak.other,  # of the second of two motions
     }
 
 
@@ -292,8 +276,10 @@ def _unknown(
         "mesh": model_errors["mesh"] is None or "mesh" in failed,
         "fineness": bool((parts and not FINER & {*parts}) or failed & {*FINER, "patches"}),
     }
-    missing = [name for name, is_missing in is_unknown.items() if is_missing]
-    return {ALL: missing, "amplitude": ["speeds"] if "speeds" in failed else []}
+    return {
+        ALL: [name for name, is_missing in is_unknown.items() if is_missing],
+        "amplitude": ["speeds"] if "speeds" in failed else [],
+    }
 
 
 def _speed_error(results: Mapping[str, Any], peak: "Peak") -> float | None:
@@ -397,34 +383,35 @@ def shown(scene: Mapping[str, Any]) -> list[tuple[list[str], list[list[str]]]]:
     )
     moving = (row["course"] for row in rows if row["course"].get("trend") != STEADY)
     most = max((ceil(course.get("rounds", 0)) for course in moving), default=0)
-
-    def heads(columns: Iterable[Column]) -> list[str]:
-        """Heads, with the revolutions after which numbers are told that change further."""
-        after = f" after {most} revolutions" * (most > 0)
-        return [column.head + after * (column.name in GO_ON) for column in columns]
-
-    motion_rows = [
-        [
-            *_names(row),
-            margins.speed(row),
-            *_cells(row, motion),
-            *_end_of_run(row),
-            row["word"],
-        ]
-        for row in rows
-    ]
-    load_rows = [
-        [
-            *_names(row),
-            f"{row['over_f1']:.3f}",
-            f"{row['hz']:.1f}" if row["hz"] else "-",
-            *_cells(row, loads),
-        ]
-        for row in rows
-    ]
+    # the revolutions after which numbers are told that change further
+    after = f" after {most} revolutions" * (most > 0)
+    heads = {column: column.head + after * (column.name in GO_ON) for column in kept}
     return [
-        (["EO", "mode", "rpm", *heads(motion), *AT_END, ""], motion_rows),
-        (["EO", "mode", "Ω / f₁(0)", "Hz", *heads(loads)], load_rows),
+        (
+            ["EO", "mode", "rpm", *(heads[column] for column in motion), *AT_END, ""],
+            [
+                [
+                    *_names(row),
+                    margins.speed(row),
+                    *(_cell(row, column) for column in motion),
+                    *_end_of_run(row),
+                    row["word"],
+                ]
+                for row in rows
+            ],
+        ),
+        (
+            ["EO", "mode", "Ω / f₁(0)", "Hz", *(heads[column] for column in loads)],
+            [
+                [
+                    *_names(row),
+                    f"{row['over_f1']:.3f}",
+                    f"{row['hz']:.1f}" if row["hz"] else "-",
+                    *(_cell(row, column) for column in loads),
+                ]
+                for row in rows
+            ],
+        ),
     ]
 
 
@@ -435,17 +422,13 @@ def _names(row: PeakRow) -> list[str]:
     return [f"{k:.3g}{off}" if k else "-", modes]
 
 
-def _cells(row: PeakRow, columns: Iterable[Column]) -> list[str]:
-    """The numbers of a row under these columns."""
-    return [_cell(row, column) for column in columns]
-
-
 def _cell(row: PeakRow, column: Column) -> str:
     """The number, that of another motion, its uncertainty in percent, and whether it goes on."""
     value, error, other = (row[kind].get(column.name) for kind in ("values", "errors", "other"))
     if value is None:
         return "-"
-    number = column.number(value, error, least=_in_part(row, column.name))
+    in_part = [*row["unknown"][ALL], *row["unknown"].get(column.name, [])]
+    number = column.number(value, error, least=bool(in_part))
     further = "" if other is None else f" or {column.number(other, error).shown}"
     if column.name in stress_told.COUNTS:
         return number.shown
@@ -457,11 +440,6 @@ def _cell(row: PeakRow, column: Column) -> str:
     revolution_text = f" (rev. {revolution:.0f})" if revolution else ""
     text = f"{bound}{number.shown}{further} {number.share}{goes_on}".rstrip()
     return text + rises + revolution_text + where
-
-
-def _in_part(row: PeakRow, name: str) -> bool:
-    """Whether parts of the uncertainty of a number are not known, others are."""
-    return any(row["unknown"][part] for part in (ALL, name) if part in row["unknown"])
 
 
 def moves(row: PeakRow) -> bool:
@@ -496,7 +474,11 @@ def about(scene: Mapping[str, Any]) -> str:
 
 def notes(scene: Mapping[str, Any]) -> list[str]:
     """Crossings, ends of the sweep, operating lines, unknown parts, cost of uncertainties."""
-    lines = [*_without_peaks(scene), *crossings_and_ends(scene), *_operating_lines(scene)]
+    campbell = scene["operating"]
+    lines = [*_without_peaks(scene), *crossings_and_ends(scene)]
+    for name in campbell["lines"]:
+        lines += margins.nearest(campbell, scene["margins"], name)
+    lines.append(margins.covered(campbell))
     if scene["stress"]:
         rows = {row["over_f1"]: row for row in [*scene["worst"], *scene["rows"]]}
         lines += stress_told.worst(scene["stress"], rows.get(scene["stress"]["worst"]))
@@ -512,11 +494,11 @@ def notes(scene: Mapping[str, Any]) -> list[str]:
         lines.append(f"Not known: {', '.join(unknown)}.")
     if scene["mu_crit"]:
         lines.append(f"The tip locks at a friction coefficient of {scene['mu_crit']:.3f} or more.")
-    cost = f"{scene['runs']} runs, {scene['answers_s']:.1f} s of CPU time"
     return [
         *lines,
         f"Error of the step: {scene['checks']}.",
-        f"Uncertainties: {cost}; the sweep: {scene['sweep_s']:.0f} s.",
+        f"Uncertainties: {scene['runs']} runs, {scene['answers_s']:.1f} s of CPU time; the sweep: "
+        f"{scene['sweep_s']:.0f} s.",
     ]
 
 
@@ -533,22 +515,14 @@ def _without_peaks(scene: Mapping[str, Any]) -> list[str]:
     ] * bool(free)
 
 
-def _operating_lines(scene: Mapping[str, Any]) -> list[str]:
-    """Critical speeds next to the operating speeds, and how crossings are known."""
-    campbell = scene["operating"]
-    lines = (margins.nearest(campbell, scene["margins"], name) for name in campbell["lines"])
-    return [*chain(*lines), margins.covered(campbell)]
-
-
 def crossings_and_ends(scene: Mapping[str, Any]) -> list[str]:
     """Linear crossings, and results at the ends of the sweep."""
-
-    def rpm_text(over_f1: float) -> str:
-        """A speed in rpm, and over f1(0)."""
-        return f"{RPM_PER_HZ * scene['f1_Hz'] * over_f1:.0f} rpm ({over_f1:.3f})"
-
-    seen = {rpm_text(end["over_f1"]): _seen(end) for end in scene["ends"]}
-    ends = "; ".join(f"{where}: {what}" for where, what in seen.items() if what)
+    seen = {end["over_f1"]: _seen(end) for end in scene["ends"]}
+    ends = "; ".join(
+        f"{RPM_PER_HZ * scene['f1_Hz'] * over_f1:.0f} rpm ({over_f1:.3f}): {what}"
+        for over_f1, what in seen.items()
+        if what
+    )
     return [*margins.met(scene["operating"]), *[f"Ends of the sweep: {ends}."] * bool(ends)]
 
 
@@ -586,25 +560,20 @@ def margins_csv(summary: Mapping[str, Any]) -> str:
             "scene": scene["scene"],
             "blade": scene["blade"],
             "mode": numbers_of(row["modes"]),
-            **{name: value for name, value in row.items() if name != "modes"},
+            **{
+                name: _digits(value) if isinstance(value, float) else value
+                for name, value in row.items()
+                if name != "modes"
+            },
         }
         for scene in summary["scenes"]
         for row in scene["margins"]
     ]
-    rows = (
-        [_digits(value) if isinstance(value, float) else value for value in record.values()]
-        for record in records
-    )
-    return csv_text([*records[:1], *rows])
+    return csv_text([*records[:1], *(record.values() for record in records)])
 
 
 def _record(scene: Mapping[str, Any], row: PeakRow) -> dict[str, Any]:
     """Cells of a row of the CSV file by their head."""
-    numbers = {
-        f"{column.name}{what} ({column.unit})": _digits(row[key].get(column.name), column.scale)
-        for column in COLUMNS
-        for what, key in (("", "values"), (" +-", "errors"), (" other", "other"))
-    }
     return {
         "scene": scene["scene"],
         "blade": scene["blade"],
@@ -627,7 +596,11 @@ def _record(scene: Mapping[str, Any], row: PeakRow) -> dict[str, Any]:
         "at end of sweep": int(row["bound"]),
         "lobes": row["lobes"],
         "stress rises towards": row["rises"],
-        **numbers,
+        **{
+            f"{column.name}{what} ({column.unit})": _digits(row[key].get(column.name), column.scale)
+            for column in COLUMNS
+            for what, key in (("", "values"), (" +-", "errors"), (" other", "other"))
+        },
     }
 
 

@@ -22,7 +22,7 @@ from rom.polynomial import evaluate
 from rom.reconstruct import Basis
 from simulate.marching import WITH_RESULT
 from workflow.explore.page import LARGEST
-from workflow.shapes import Shapes, motion, stresses
+from workflow.shapes import motion, stresses
 
 MPA = 1e-6
 SHAPES = 6  # of the motion at all speeds
@@ -35,7 +35,8 @@ def moving(
 
     a (speeds, times, shapes), the amplitudes; static (powers, nodes, 6) and of_shapes (shapes,
     nodes, 6), MPa, that about the deflection at half the highest speed; radius, axial place and
-    gap of the liner at the ends of the strips, m.
+    gap of the liner at the ends of the strips, m, (strips + 1,) each. Facts are the number of the
+    shapes, the share that they miss at each speed, times of states in a revolution, the top speed.
 
     Raises
     ------
@@ -56,6 +57,8 @@ def moving(
     sigma = MPA * stresses(solid, basis, moved.shapes, blade.prestress)[:, :, nodes]
     order = dofs_at(basis.coordinates, solid.free_coordinates()).ravel()
     displaced = map(solid.field, (basis.T @ moved.shapes)[order].T)
+    ends = sweep["end"].values
+    radius, _, z = rom.line(ends).T
     arrays = {
         "points": points[nodes],
         "triangles": numbered.reshape(-1, 3).astype(float),
@@ -63,27 +66,14 @@ def moving(
         "a": states @ moved.onto,
         "static": sigma[:, 0],
         "of_shapes": evaluate(sigma, 0.5)[1:],
-    }
-    return _facts(moved, sweep, rom), arrays | _liner(sweep, rom)
-
-
-def _facts(moved: Shapes, sweep: xr.Dataset, rom: Rom) -> dict[str, Any]:
-    """Share missed by the shapes at each speed; times of states in a revolution; top speed."""
-    time = sweep["motion_time"].values
-    return {
-        "shapes": moved.shapes.shape[1],
-        "missed": moved.missed.tolist(),
-        "of_round": (time % 1.0).tolist(),
-        "Omega_m_over_f1": rom.Omega_m / rom.omega1,
-    }
-
-
-def _liner(sweep: xr.Dataset, rom: Rom) -> dict[str, NDArray[np.float64]]:
-    """Radius, axial place and gap at the ends of the strips, m, (strips + 1,) each."""
-    ends = sweep["end"].values
-    radius, _, z = rom.line(ends).T
-    return {
         "liner_radius": radius,
         "liner_z": z,
         "liner_gap": np.interp(ends, sweep["xi"].values, sweep["gap"].values),
     }
+    facts = {
+        "shapes": moved.shapes.shape[1],
+        "missed": moved.missed.tolist(),
+        "of_round": (sweep["motion_time"].values % 1.0).tolist(),
+        "Omega_m_over_f1": rom.Omega_m / rom.omega1,
+    }
+    return facts, arrays

@@ -16,8 +16,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from workflow.explore.results import Arrays
-
 HERE = Path(__file__).parent
 SCRIPTS = ("page.js", "units.js", "save.js", "blade.js")
 MISSING = 65535  # where a number is not finite
@@ -32,22 +30,16 @@ def packed(arrays: Mapping[str, NDArray[np.float64]]) -> dict[str, Any]:
     layout: dict[str, Any] = {}
     codes, begin = [], 0
     for name, values in arrays.items():
-        code, low, step = quantised(values)
+        is_finite = np.isfinite(values)
+        finite = values[is_finite]
+        low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 0.0)
+        step = (high - low) / LARGEST or 1.0
+        code = np.full(values.shape, MISSING, np.uint16)
+        code[is_finite] = np.rint((finite - low) / step)
         layout[name] = {"shape": list(values.shape), "low": low, "step": step, "at": begin}
         codes.append(code.ravel())
         begin += code.size
     return {"layout": layout, "codes": compressed(np.concatenate(codes).astype("<u2").tobytes())}
-
-
-def quantised(values: NDArray[np.float64]) -> tuple[NDArray[np.uint16], float, float]:
-    """Codes (like ``values``), the lowest value, and the step from code to code."""
-    is_finite = np.isfinite(values)
-    finite = values[is_finite]
-    low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 0.0)
-    step = (high - low) / LARGEST or 1.0
-    code = np.full(values.shape, MISSING, np.uint16)
-    code[is_finite] = np.rint((values[is_finite] - low) / step)
-    return code, low, step
 
 
 def compressed(data: bytes) -> str:
@@ -55,7 +47,7 @@ def compressed(data: bytes) -> str:
     return base64.b64encode(gzip.compress(data, compresslevel=9, mtime=0)).decode()
 
 
-def html(facts: dict[str, Any], arrays: Arrays) -> str:
+def html(facts: dict[str, Any], arrays: Mapping[str, NDArray[np.float64]]) -> str:
     """The page of one sweep."""
     plotly = (files("plotly") / "package_data/plotly.min.js").read_bytes()
     data = packed(arrays) | {"facts": facts, "plotly": compressed(plotly)}

@@ -13,7 +13,7 @@ from simulate.contact.places import closing_rows
 from simulate.signals import leading_gap, lobe_count
 from simulate.sweeps.peak import along_order
 from workflow.figures.annotations import frequencies_over_speed
-from workflow.figures.response import Response
+from workflow.figures.response import Response, liner_and_tip
 
 HIGHEST = 2.5  # f / f1(0) of spectra, at the slowest speed
 FLOOR = 1e-6  # gaps, least amplitude on a logarithmic scale
@@ -23,10 +23,8 @@ DIFFERENCES = {  # of a run from another, by the name in the sweep
     "error": "relative error",
 }
 
-type Arrays = dict[str, NDArray[np.float64]]
 
-
-def arrays(response: Response) -> Arrays:
+def arrays(response: Response) -> dict[str, NDArray[np.float64]]:
     """Arrays by name, speeds first; lengths over the gap, amplitudes as their log10.
 
     along (speeds, orders); spectrum (speeds, bins); worn (speeds, angles) of the leading eighth;
@@ -75,10 +73,14 @@ def facts(
     """
     sweep, rom = response.sweep, response.rom
     speeds, frequencies = frequencies_over_speed(rom, campbell["modes"])
+    energies = zip(sweep["energy"].values, sweep["ledger"].values.T, strict=True)
     return {
         "blade": blade,
         "scene": scene,
-        "label": response.label.replace("$", "").replace("\\sigma_Y", "σ_Y").replace("\n", " "),
+        "label": liner_and_tip(response.scene)
+        .replace("$", "")
+        .replace("\\sigma_Y", "σ_Y")
+        .replace("\n", " "),
         "place": response.place.replace("$\\xi$", "ξ"),
         "norms": response.units["speed"][0].scale == 1.0,
         "campbell": {"speeds": speeds.tolist(), "frequencies": frequencies.T.tolist()},
@@ -113,32 +115,25 @@ def facts(
             }
             for reported in response.peaks
         ],
-        "tables": tables(response),
+        "tables": [  # lists by name
+            {
+                "says": "energy of the run, J",
+                "of": {str(name): plain(joules) for name, joules in energies},
+            },
+            *(
+                {
+                    "says": says,
+                    "of": {
+                        one: plain(sweep[name].sel(observable=one).values)
+                        for one in response.observables
+                    },
+                }
+                for name, says in DIFFERENCES.items()
+                if name in sweep and sweep[name].notnull().any()
+            ),
+        ],
         "meanings": sweep["energy"].attrs["long_name"],
     }
-
-
-def tables(response: Response) -> list[dict[str, Any]]:
-    """Numbers of each speed: energies, differences from twins, errors; lists by name."""
-    sweep = response.sweep
-    energies = zip(sweep["energy"].values, sweep["ledger"].values.T, strict=True)
-    return [
-        {
-            "says": "energy of the run, J",
-            "of": {str(name): plain(joules) for name, joules in energies},
-        },
-        *(
-            {
-                "says": says,
-                "of": {
-                    one: plain(sweep[name].sel(observable=one).values)
-                    for one in response.observables
-                },
-            }
-            for name, says in DIFFERENCES.items()
-            if name in sweep and sweep[name].notnull().any()
-        ),
-    ]
 
 
 def plain(values: Iterable[float]) -> list[float | str | None]:

@@ -10,6 +10,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.animation import FuncAnimation, writers
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from geometry.base import UserError, whole
@@ -51,10 +52,6 @@ class Rub:
     def turn(self, sample: int) -> float:
         """Angle of the tip in the casing after a sample of a revolution, in revolutions."""
         return self.tip / (2 * np.pi) + (sample + 1) / self.u_r.shape[1]
-
-    def casing(self, done: int, sample: int) -> NDArray[np.float64]:
-        """Distortion (nu,) after a sample of a revolution, inward."""
-        return self.share[done, sample] * self.inward(done + (sample + 1) / self.u_r.shape[1])
 
     def liner(self, done: int, sample: int) -> NDArray[np.float64]:
         """Wear (nu,): behind the tip of this revolution, ahead of it of the one before."""
@@ -138,12 +135,7 @@ def animation(rub: Rub, title: str, last: bool = False) -> FuncAnimation:
     ``title``: name of the run, above the speed and the revolution; ``last``: the last moment alone.
     """
     drawn = style.figure(style.DOUBLE, 3.4)
-    grid = drawn.add_gridspec(2, 2, width_ratios=(1, 1.3))
-    places = grid[:, 0], grid[0, 1], grid[1, 1]
-    around, profile, history = panels = [drawn.add_subplot(place) for place in places]
-    _around(around, rub)
-    _profile(profile, rub)
-    _history(history, rub)
+    panels = _panels(drawn, rub)
     lines = [line for axes in panels for line in axes.lines]
     rounds, samples = rub.u_r.shape
     each = max(samples // FRAMES, 1)
@@ -163,7 +155,7 @@ def animation(rub: Rub, title: str, last: bool = False) -> FuncAnimation:
         for line, data in zip(lines, _lines(rub, n, s), strict=True):
             line.set_data(*data)
         revolutions = n + (s + 1) / samples
-        history.set_xlim(max(0, revolutions - SEEN), max(SEEN, revolutions))
+        panels[-1].set_xlim(max(0, revolutions - SEEN), max(SEEN, revolutions))
 
     return FuncAnimation(drawn, show, frames=len(moments), interval=1000 / RATE)
 
@@ -171,7 +163,8 @@ def animation(rub: Rub, title: str, last: bool = False) -> FuncAnimation:
 def _lines(rub: Rub, n: int, s: int) -> list[Any]:
     """Places of all lines after a sample of a revolution, in the order in which they are drawn."""
     samples, turn, end = rub.u_r.shape[1], rub.turn(s), n * rub.u_r.shape[1] + s + 1
-    distorted, liner = -rub.casing(n, s), rub.liner(n, s)
+    distorted = -rub.share[n, s] * rub.inward(n + (s + 1) / samples)
+    liner = rub.liner(n, s)
     reach, degrees = np.array([0.55, 1 + DRAWN * (rub.u_r[n, s] - 1)]), 360 * np.arange(liner.size)
     time, u_r = (np.arange(end) + 1) / samples, rub.u_r.ravel()[:end]
     return [
@@ -207,40 +200,43 @@ def save(rub: Rub, title: str, path: str | Path) -> None:
         shown.save(temporary, writer=writer, fps=RATE, dpi=PIXELS)
 
 
-def _around(axes: Axes, rub: Rub) -> None:
-    """The liner's surface and the tip over the angle."""
-    axes.plot([], [], label="casing, not worn", **NEW)
-    axes.plot([], [], label="liner", **LINER)
-    axes.plot([], [], label="blade, tip at the gap", **TIP)
+def _panels(drawn: Figure, rub: Rub) -> list[Axes]:
+    """The liner's surface and the tip over the angle; worn depth and the tip; displacement.
+
+    The depth is over the casing angle, the displacement, at xi = 1/16, over the last revolutions
+    up to now. Their lines have no data yet.
+    """
+    grid = drawn.add_gridspec(2, 2, width_ratios=(1, 1.3))
+    places = grid[:, 0], grid[0, 1], grid[1, 1]
+    around, profile, history = panels = [drawn.add_subplot(place) for place in places]
+    for axes, look in (
+        (around, {"label": "casing, not worn"} | NEW),
+        (around, {"label": "liner"} | LINER),
+        (around, {"label": "blade, tip at the gap"} | TIP),
+        (profile, LINER),
+        (history, {"color": style.BLACK, "linewidth": 0.8}),
+        (history, {"color": style.BLACK, "marker": "o", "linestyle": "none"}),
+    ):
+        axes.plot([], [], **look)
     inward = rub.inward(0.0)
     outward = np.abs(inward).max() if rub.travels else max(0, -inward.min())
     limit = 1.02 * (1 + DRAWN * (outward + rub.wear.max()))
-    axes.set(aspect="equal", xlim=(-limit, limit), ylim=(-limit, limit))
-    axes.set_axis_off()
-    axes.legend(loc="center", fontsize=6.5)
-
-
-def _profile(axes: Axes, rub: Rub) -> None:
-    """Worn depth over the casing angle, and the place of the tip."""
-    axes.plot([], [], **LINER)
-    axes.axvline(0, **TIP)
-    axes.set(
+    around.set(aspect="equal", xlim=(-limit, limit), ylim=(-limit, limit))
+    around.set_axis_off()
+    around.legend(loc="center", fontsize=6.5)
+    profile.axvline(0, **TIP)
+    profile.set(
         xlabel=r"casing angle $\theta$ (deg)",
         ylabel=f"worn depth\n{style.OVER_GAP}",
         xlim=(0, 360),
         ylim=(0, 1.05 * rub.wear.max() or 1),
         xticks=range(0, 361, 90),
     )
-
-
-def _history(axes: Axes, rub: Rub) -> None:
-    """Displacement at xi = 1/16 over the last revolutions up to now."""
-    axes.plot([], [], color=style.BLACK, linewidth=0.8)
-    axes.plot([], [], "o", color=style.BLACK)
     low, high = np.nanmin(rub.u_r), np.nanmax(rub.u_r)
     margin = 0.05 * (high - low) or 1.0
-    axes.set(
+    history.set(
         xlabel="time (revolutions)",
         ylabel=rf"$u_r$ at {style.PLACE}," + f"\n{style.OVER_GAP}",
         ylim=(low - margin, high + margin),
     )
+    return panels

@@ -2,6 +2,7 @@
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
+from itertools import product
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
@@ -157,19 +158,12 @@ def hatch(drawn: Figure, panels: Sequence[Axes], response: Response, observable:
         if which.any():
             look = {"edgecolor": style.GREY, "linewidth": 0} | hatched
             handles.append(Patch(label=label, **look))
-            _bands(panels, response.speeds, which, **look)
+            low, high = (ends[which] for ends in style.spans(response.speeds))
+            separate = low[1:] != high[:-1]  # adjoining cells are in one band
+            bands = zip(low[np.r_[True, separate]], high[np.r_[separate, True]], strict=True)
+            for band, axes in product(bands, panels):
+                axes.axvspan(*band, **look)
     drawn.legend(handles=handles, loc="outside lower left", handlelength=2.6, handleheight=1.3)
-
-
-def _bands(
-    panels: Sequence[Axes], speeds: NDArray[np.float64], which: NDArray[np.bool_], **look: Any
-) -> None:
-    """Hatch the cells of the speeds ``which``, adjoining ones in one band."""
-    low, high = (ends[which] for ends in style.spans(speeds))
-    separate = low[1:] != high[:-1]
-    for begin, after in zip(low[np.r_[True, separate]], high[np.r_[separate, True]], strict=True):
-        for axes in panels:
-            axes.axvspan(begin, after, **look)
 
 
 def frequencies_over_speed(rom: Rom, modes: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -55,15 +55,25 @@ def draw(
         style.note(every, (every.get_xlim()[1], last), str(mode), (5, 0), va="center")
     every.set_ylim(0, 1.2 * modes.max())
     # the error of the mesh is not known
-    rows: list[margins.Margin] = [{**row, "rpm_error": None} for row in margins.rows(campbell)]
+    rows = [{**row, "rpm_error": None} for row in margins.rows(campbell)]
     shown = margins.near(rows) or [row for row in rows if row["modes"] == [1]][-FASTEST:]
     both = units.both(bool(marks.spans), rom.f1)
     for axes, first_mode in ((first, True), (every, False)):
         marked = [crossing for crossing in shown if (crossing["modes"] == [1]) == first_mode]
         _crossings(axes, marked, rom.f1, both["speed"][0])
         units.show(axes.xaxis, style.below, *both["speed"])
-    if marks.spans:
-        _mark(first, marks)
+    if marks.spans:  # from their lowest to their highest speed
+        low, high, orders = np.array(marks.spans).T
+        speeds = (low + high) / 2
+        first.errorbar(
+            speeds,
+            orders * speeds,
+            xerr=(high - low) / 2,
+            fmt="none",
+            ecolor=style.BLUE,
+            elinewidth=2.0,
+            label=marks.label,
+        )
     texts = {name: "\n".join(margins.nearest(campbell, rows, name)) for name in lines}
     operating_lines(drawn, first, rom.f1, lines, texts)
     operating_lines(None, every, rom.f1, lines)
@@ -144,21 +154,6 @@ def _crossings(
             rotation=-40,
             bbox=BEHIND,
         )
-
-
-def _mark(axes: Axes, marks: Marks) -> None:
-    """Mark the crossings of another source from their lowest to their highest speed."""
-    low, high, orders = np.array(marks.spans).T
-    speeds = (low + high) / 2
-    axes.errorbar(
-        speeds,
-        orders * speeds,
-        xerr=(high - low) / 2,
-        fmt="none",
-        ecolor=style.BLUE,
-        elinewidth=2.0,
-        label=marks.label,
-    )
 
 
 def _state_error(axes: Axes, rom: Rom, check: RomCheck) -> None:

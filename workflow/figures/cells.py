@@ -49,10 +49,9 @@ def draw(
     for name in (x, y):  # where a column has no value, its name is empty
         frame[name] = frame[name].astype(object).where(frame[name].notna(), "")
     panels, columns, rows = (split(frame, column) for column in (panel, x, y))
-    limits = (None, None) if log else (min(0.0, frame[value].min()), None)
     height = FOOTER + ceil(len(panels) / 2) * (HEADER + LINE * len(rows))
     drawn = style.panels(len(panels), style.DOUBLE, height)
-    scale = (LogNorm if log else Normalize)(*limits)
+    scale = LogNorm() if log else Normalize(min(0.0, frame[value].min()))
     for axes, (name, these) in zip(drawn.axes, panels.items(), strict=True):
         image = matrix(
             axes,

@@ -4,7 +4,6 @@ from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
-import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
@@ -49,8 +48,10 @@ def draw(
 ) -> Figure:
     """Loads of scenes of one blade; ``answers`` of each, ``stress`` where it is known."""
     by_scene = {stressed["scene"]: stressed for stressed in stress}
-    pairs = zip(sweeps, answers, strict=True)
-    loads = [loads_of(sweep, results, by_scene.get(results["scene"])) for sweep, results in pairs]
+    loads = [
+        loads_of(sweep, results, by_scene.get(results["scene"]))
+        for sweep, results in zip(sweeps, answers, strict=True)
+    ]
     return panels(loads, rom.f1, rom.provenance.blade, operating)
 
 
@@ -66,31 +67,25 @@ def loads_of(
     if "torque" in sweep:
         lines["torque"] = np.nanmean(sweep["torque"].values, axis=1)
     elif scene.no_torque is None and not scene.contact.tangential:
-        lines["torque"] = torque(_shaft_work(sweep["ledger"]), sweep["rounds"].values)
+        # work of the shaft: of the casing on the rods, and against friction
+        parts = [name for name in ("casing", "friction", "heat") if name in sweep["energy"]]
+        work = sweep["ledger"].sel(energy=parts).sum("energy", skipna=False)
+        lines["torque"] = torque(work.values, sweep["rounds"].values)
     if "wear" in sweep:
         lines["worn_volume"] = worn_volume(sweep["wear"].values, width, radius)
     if stress:
         lines["alternating"] = np.array(
             [row.get("alternating", np.nan) for row in stress["speeds"]]
         )
-    with_result = {
-        name: np.where(response.has_result, values, np.nan) for name, values in lines.items()
-    }
     alike = np.ones((len(width), 1)), width, radius
     return Loads(
         name=results["scene"],
         speeds=response.speeds,
-        lines=with_result,
+        lines={name: np.where(response.has_result, y, np.nan) for name, y in lines.items()},
         peaks=[Peak.of(peak) for peak in results["peaks"]],
         opening_per_volume=float(mean_opening(*alike) / worn_volume(*alike)),
         no_torque=scene.no_torque,
     )
-
-
-def _shaft_work(ledger: xr.DataArray) -> NDArray[np.float64]:
-    """Work of the shaft (speeds,), J: of the casing on the rods, and against friction."""
-    parts = [name for name in ("casing", "friction", "heat") if name in ledger["energy"]]
-    return ledger.sel(energy=parts).sum("energy", skipna=False).values
 
 
 PANELS = (  # number, label, scale
@@ -122,7 +117,6 @@ def panels(
         if name == "torque":
             unknown = [f"not known of {of.name}: {of.no_torque}" for of in loads if of.no_torque]
             axes.set_title("; ".join(unknown), loc="right", fontsize=7)
-    for axes in used:
         operating_lines(drawn if axes is used[0] else None, axes, f1, operating["lines"])
     units.show(used[-1].xaxis, style.below, *units.both(False, f1)["speed"])
     style.legend(drawn, "lower left", ncols=2)

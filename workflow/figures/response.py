@@ -145,12 +145,7 @@ class Response:
     @property
     def title(self) -> str:
         """Names of scene and blade, and the liner."""
-        return f"{self.names}: {self.label}"
-
-    @property
-    def label(self) -> str:
-        """The liner's law with its parameters, and the tip."""
-        return liner_and_tip(self.scene)
+        return f"{self.names}: {liner_and_tip(self.scene)}"
 
 
 def _symbol(name: str) -> str:

@@ -142,9 +142,15 @@ def _amplitudes(axes: Axes, response: Response, marks: Marks) -> None:
         along = unit.scale * along_order(response.sweep, k)
         axes.plot(response.speeds, along, linestyle=dashes, color=colour, label=f"EO {k}")
     _others(axes, response, curves)
-    shaded = _mark(axes, marks, curves)
+    handles, _ = axes.get_legend_handles_labels()
+    for low, high, k in marks.spans:  # in the colours of their orders
+        axes.axvspan(low, high, color=curves[k][1], alpha=SHADE, linewidth=0, zorder=0)
+        across = axes.get_xaxis_transform()
+        style.note(axes, ((low + high) / 2, 0), str(k), (0, 2), xycoords=across, ha="center")
+    if marks.spans:
+        handles.append(Patch(color=style.GREY, alpha=SHADE, linewidth=0, label=marks.label))
     axes.legend(
-        handles=[*axes.get_legend_handles_labels()[0], *shaded],
+        handles=handles,
         loc="center left",
         bbox_to_anchor=(1.12, 0.5),
         handlelength=1.6,
@@ -183,16 +189,6 @@ def _others(axes: Axes, response: Response, curves: Mapping[int, Any]) -> None:
             label = None
 
 
-def _mark(axes: Axes, marks: Marks, curves: Mapping[int, tuple[Any, str]]) -> list[Patch]:
-    """Shade the speeds of the marks in the colours of their orders; return their key."""
-    across = axes.get_xaxis_transform()
-    for low, high, k in marks.spans:
-        axes.axvspan(low, high, color=curves[k][1], alpha=SHADE, linewidth=0, zorder=0)
-        style.note(axes, ((low + high) / 2, 0), str(k), (0, 2), xycoords=across, ha="center")
-    shaded = [Patch(color=style.GREY, alpha=SHADE, linewidth=0, label=marks.label)]
-    return shaded if marks.spans else []
-
-
 def _name(axes: Axes, response: Response, peak: Peak, across: float) -> None:
     """Write k and the critical speed above the axes, at x, with a line down to the peak."""
     place = peak.Omega_c, response.units["length"][0].scale * peak.amplitude
@@ -224,8 +220,10 @@ def of_gauge(sweep: Response, operating: Mapping[str, Any] = NO_LINES) -> Figure
     """As ``over_speeds``, of the strain along the first grid by the vibration."""
     first = sweep.sweep["gauge_strain"].isel(gauge=0)
     amplitudes = (SPEED, "bin"), [spectrum(motion) for motion in first.values]
-    displacements = ["along", "beside", "beside_order", "place"]
-    of_strain = sweep.sweep.drop_vars(displacements, errors="ignore")
+    of_strain = sweep.sweep.drop_vars(
+        ["along", "beside", "beside_order", "place"],  # of displacements
+        errors="ignore",
+    )
     strains = of_strain.assign(spectrum=amplitudes).assign_attrs(gap_m=STRAIN)
     return over_speeds(
         Strain(strains, sweep.rom),

@@ -43,10 +43,9 @@ def draw(fields: rendering.Fields, stress: Mapping[str, Any]) -> Figure:
         marked = {number: place}
     levels = MaxNLocator(LEVELS).tick_values(0, max(sigma.max(), 1.0))
     look = style.MAP.resampled(len(levels) - 1), (levels[0], levels[-1]), LIGHT
-    still = np.zeros_like(fields.points)
     return rendering.gallery(
         fields,
-        [(side, still, sigma, view) for side, view in VIEWS.items()],
+        [(side, 0.0, sigma, view) for side, view in VIEWS.items()],  # on the undeformed blade
         look,
         style.SINGLE,
         corners(fields.points, stress["edges"]),

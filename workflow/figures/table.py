@@ -152,6 +152,7 @@ class Figures(NamedTuple):
     def configured(self, wanted: Callable[[FigureRow], bool]) -> list[str]:
         """Names of the wanted figures of configured blades and scenes whose needs are met.
 
+        They are by the sweep, or by the design, of each scene.
         A row of the same category that is like another for its blade or scene is there instead.
         """
         candidates = [
@@ -164,7 +165,10 @@ class Figures(NamedTuple):
         return [
             name.format_map(wildcards)
             for name, row, wildcards, subject in candidates
-            if self._ready(row, subject) and (name, row.category, subject) not in instead
+            if {bool(self.delivered[scene].design) for scene in subject.scenes}
+            <= {"design" in row.needs}
+            and not any(self._faults(row, subject))
+            and (name, row.category, subject) not in instead
         ]
 
     def _configured(self, name: str) -> list[dict[str, str]]:
@@ -176,11 +180,6 @@ class Figures(NamedTuple):
         if "{scene}" in name:
             return [{"scene": scene} for scene in scenes]
         return [{}] if {*row.scenes} <= {*scenes} and row.blade in (None, *blades) else []
-
-    def _ready(self, row: FigureRow, subject: FigureSubject) -> bool:
-        """Whether the sweep, or the design, of each scene meets the needs of the figure."""
-        designs = {bool(self.delivered[scene].design) for scene in subject.scenes}
-        return designs <= {"design" in row.needs} and not any(self._faults(row, subject))
 
     def _faults(self, row: FigureRow, subject: FigureSubject) -> Iterator[SettingsError]:
         """Needs of a figure that its blade or scenes do not meet."""

@@ -42,7 +42,18 @@ def over_speeds(sweep: Response, marks: Marks = NO_MARKS) -> Figure:
     _below(depth, lobes, sweep)
     depth.set_ylim(scale)
     if marks.spans:
-        _mark(lobes, marks)
+        low, high, numbers = np.array(marks.spans).T
+        lobes.plot(
+            (low + high) / 2,
+            numbers,
+            "s",
+            label=marks.label,
+            clip_on=False,
+            markersize=6,
+            markerfacecolor="none",
+            color=style.VERMILLION,
+        )
+        lobes.legend(loc="lower right", bbox_to_anchor=(1, 1), handletextpad=0.2, borderaxespad=0.1)
     hatch(drawn, panels, sweep, "wear")
     top.set_xlim(style.limits(sweep.speeds))
     mark_speeds(top, sweep)
@@ -61,19 +72,3 @@ def _below(depth: Axes, lobes: Axes, response: Response) -> None:
     lobes.plot(response.speeds[response.has_result], counts, ".", color=style.BLACK, markersize=3)
     lobes.set(ylabel="worn\nlobes", ylim=(0, max([6, *counts]) + 1))
     lobes.yaxis.set_major_locator(MultipleLocator(2))
-
-
-def _mark(axes: Axes, marks: Marks) -> None:
-    """Square the numbers of lobes of another source."""
-    low, high, lobes = np.array(marks.spans).T
-    axes.plot(
-        (low + high) / 2,
-        lobes,
-        "s",
-        label=marks.label,
-        clip_on=False,
-        markersize=6,
-        markerfacecolor="none",
-        color=style.VERMILLION,
-    )
-    axes.legend(loc="lower right", bbox_to_anchor=(1, 1), handletextpad=0.2, borderaxespad=0.1)

@@ -36,10 +36,9 @@ def write(
     if "motion" in response.sweep:
         motion, blade_arrays = moving(blade, mesh, full_basis, response.sweep, response.rom)
     campbell = critical(response.rom, operating)
-    summary_panel = panel(read_json(answers), campbell, stress)
     shown = facts(response, names["blade"], names["scene"], campbell) | {
         "motion": motion,
-        "answers": summary_panel,
+        "answers": panel(read_json(answers), campbell, stress),
         "operating": operating["lines"],
     }
     write_whole(page.html(shown, arrays(response) | blade_arrays), html)

@@ -33,8 +33,11 @@ def read(figure: ModuleType, files: Any, function: str = "draw") -> Sequence[Any
     """
     readers = {Response: partial(Response.read, rom=getattr(files, "rom", None))}
     kinds = get_type_hints(getattr(figure, function), include_extras=True)
-    named = {name: kind for name, kind in kinds.items() if hasattr(files, name)}
-    return [argument(kind, getattr(files, name), readers) for name, kind in named.items()]
+    return [
+        argument(kind, getattr(files, name), readers)
+        for name, kind in kinds.items()
+        if hasattr(files, name)
+    ]
 
 
 def origins(paths: Iterable[str | Path]) -> str:
@@ -45,12 +48,11 @@ def origins(paths: Iterable[str | Path]) -> str:
     geometry.base.provenance.ProvenanceError
         When a file holds no provenance.
     """
-    texts = (_origin(path) for path in paths if Path(path).suffix == ".nc")
+    texts = []
+    for path in (path for path in paths if Path(path).suffix == ".nc"):
+        with stored(path, "sweep or model") as dataset:
+            attrs = dataset.attrs
+        scene = f"scene {attrs['name']}, " if "name" in attrs else ""
+        model = Provenance.parse(attrs.get("rom") or attrs.get("provenance"), path)
+        texts.append(scene + model.summary())
     return "; ".join(dict.fromkeys(texts))
-
-
-def _origin(path: str | Path) -> str:
-    with stored(path, "sweep or model") as dataset:
-        attrs = dataset.attrs
-    scene = f"scene {attrs['name']}, " if "name" in attrs else ""
-    return scene + Provenance.parse(attrs.get("rom") or attrs.get("provenance"), path).summary()

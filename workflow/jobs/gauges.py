@@ -20,5 +20,4 @@ def place(settings: Blade, mesh: str, basis: str, rom: Rom, record: Record, mode
     by_speed = gauge_rows(
         settings, mesh, full_basis.coordinates, grids.values(), statics, full_basis.T
     )
-    rows = interpolate(by_speed, rom.speeds)
-    replace(rom, gauges=tuple(grids), gauge_rows=rows).save(model)
+    replace(rom, gauges=tuple(grids), gauge_rows=interpolate(by_speed, rom.speeds)).save(model)

@@ -56,10 +56,16 @@ def run(snakemake: Any) -> None:
     module = import_module(name)
     call = getattr(module, function)
     with stage(snakemake) as tell:
-        held = {"files": snakemake.input, "names": dict(snakemake.wildcards.items()), "tell": tell}
-        for part in (snakemake.input, snakemake.output, snakemake.params):
-            held |= part.items()
-        held |= {"report": tell.report, **snakemake.params.get("given", {})}
+        held = {
+            "files": snakemake.input,
+            "names": dict(snakemake.wildcards.items()),
+            "tell": tell,
+            **dict(snakemake.input.items()),
+            **dict(snakemake.output.items()),
+            **dict(snakemake.params.items()),
+            "report": tell.report,
+            **snakemake.params.get("given", {}),
+        }
         kinds = get_type_hints(call, include_extras=True)
         asked = {name: argument(kind, held[name]) for name, kind in kinds.items() if name in held}
         result = call(**asked)
@@ -135,7 +141,10 @@ def stage(snakemake: Any) -> Iterator[Teller]:
     os.dup2(log, 2)
     faulthandler.enable()
     _repeat_warnings(outside, snakemake)
-    watch, tell = _watch(outside, snakemake), Teller(outside, name_of(snakemake))
+    about = [str(value) for value in dict(snakemake.wildcards.items()).values()]
+    # a job is named by its rule, and the scene or blade, block or row that it is about
+    name = " ".join([snakemake.rule, *about[-2:]])
+    watch, tell = _watch(outside, snakemake), Teller(outside, name)
     begun = cpu_time()
     try:
         for path in snakemake.output:
@@ -162,14 +171,11 @@ def _watch(outside: int, snakemake: Any) -> subprocess.Popen:
     inputs = [*map(str, snakemake.input), str(snakemake.params.get("blade") or "settings")]
     reads = [path for path in inputs if not path.endswith(".py")]
     shown = ", ".join(reads[:NAMED]) + (", ..." if reads[NAMED:] else "")
-    command = ["sh", "-c", WATCH, "sh", snakemake.rule, str(snakemake.log[0]), shown]
-    return subprocess.Popen(command, stdin=subprocess.PIPE, stderr=outside)
-
-
-def name_of(snakemake: Any) -> str:
-    """The job: its rule, and the scene or blade, block or row that it is about."""
-    about = [str(value) for value in dict(snakemake.wildcards.items()).values()]
-    return " ".join([snakemake.rule, *about[-2:]])
+    return subprocess.Popen(
+        ["sh", "-c", WATCH, "sh", snakemake.rule, str(snakemake.log[0]), shown],
+        stdin=subprocess.PIPE,
+        stderr=outside,
+    )
 
 
 def _line(snakemake: Any, message: object) -> str:
