@@ -15,8 +15,8 @@ from tests.simulate.scenes import scene
 from workflow.many.plan import cases
 from workflow.paper import grid, measure, numbers
 from workflow.paper.cost import cost
-from workflow.paper.laws import slopes_over_closed_form
 from workflow.paper.grid import worn_at
+from workflow.paper.laws import slopes_over_closed_form
 from workflow.paper.published import E, K
 
 WORKFLOW = Path(measure.__file__).parents[1]
