@@ -14,7 +14,7 @@ from scenes import SCENE
 from yaml_cases import WORKFLOW, Cases
 from yaml_oracle import differ, leaves
 
-from geometry.base import SettingsError, about, check_settings, require
+from geometry.base import SettingsError, about, check_settings
 from geometry.blade import Blade
 from geometry.section_table import read_sections
 from simulate.scene import Scene
@@ -178,7 +178,8 @@ def designs() -> Cases:
         def read(folder: Path) -> Any:
             design = Design.of(base, folder / "scene.yaml")
             for row in design.rows():  # a row that is refused stays a row
-                require((not row.refused, row.refused), kind=SettingsError, file=design.path)
+                if row.refused:
+                    raise SettingsError(*row.refused, file=design.path)
             return design
 
         return Case("design", change, {"t.csv": text.encode()}, read, must, fault)

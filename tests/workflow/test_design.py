@@ -128,7 +128,7 @@ SEVERAL = """liner.law.K,damping_ratio,casing.harmonics[3].order
 
 def test_a_row_that_is_not_valid_stays_a_row_with_its_reason(coarse_rom, tmp_path):
     """Of a table that is not valid, of a scene that its model does not allow, and of a step."""
-    reasons = [row.refused for row in design(tmp_path, SEVERAL).rows()]
+    reasons = ["; ".join(row.refused) for row in design(tmp_path, SEVERAL).rows()]
     keys = ["liner.law.K: -1: ", "damping_ratio: 2: ", "casing.harmonics[3].order: ", "1 cells for"]
     keys += ["liner.law.K: '[1'", ""]
     assert all(key in reason for key, reason in zip(keys, reasons, strict=True))

@@ -125,7 +125,7 @@ class Design:
         except SettingsError as error:
             cells = dict.fromkeys(self.columns) | dict(zip(self.columns, line, strict=False))
             given = {name: _read(cell) for name, cell in cells.items()}
-            return Row(scene=None, refused=str(error), given=given, **about)
+            return Row(scene=None, refused=map(str, error.faults), given=given, **about)
         given = {name: value_at(scene, name) for name in self.columns}
         return Row(scene=scene, given=given, directions=self.base.directions, **about)
 
@@ -143,7 +143,7 @@ class Design:
             raise SettingsError(f"allowed 1 to {self.count}", allowed=allowed, **about)
         found = next(self.rows({row - 1}))
         if found.scene is None:
-            raise SettingsError(found.refused, **about)
+            raise SettingsError(*found.refused, **about)
         return found.scene
 
 

@@ -198,7 +198,7 @@ def march_block(
     def computed(row: Row) -> str:
         """Key of the row, whose numbers are then in the store."""
         if row.scene is None:
-            raise SettingsError(row.refused)
+            raise SettingsError(*row.refused)
         marched, begun, shared.row = on_model(row), process_time(), row.row
         if marched.key not in store.keys:
             store.add(marched.key, marched.numbers())
@@ -213,8 +213,8 @@ def march_block(
         except (ProvenanceError, WriteError):  # of the model, of the store
             raise
         except UserError as error:
-            outcome = {"refused": str(error)}
-            refused.append(f"row {row.row}, {row.label}: {error}")
+            outcome = {"refused": "; ".join(map(str, error.faults))}
+            refused.append(f"row {row.row}, {row.label}: {outcome['refused']}")
             tell(refused[-1])
         entries.append(row.about | outcome)
     if refused:

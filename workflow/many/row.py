@@ -47,7 +47,7 @@ class Row(Settings):
     names: tuple[str, ...]  # of the row, from each list of the group
     against: str | None = None  # row of the same scene
     scene: Scene | None  # None where it is refused
-    refused: str = ""  # why it has no valid scene
+    refused: tuple[str, ...] = ()  # why it has no valid scene
     given: dict[str, Any] | None = None  # of a design: values of its columns
     directions: str = "r"  # interface directions of its model
     model: str | None = None  # function that makes another model of it, as module:function
@@ -61,8 +61,7 @@ class Row(Settings):
 
     def file(self, name: str) -> str:
         """File of its model with a name of ``FILES``."""
-        blade = self.scene.blade if self.scene else ""
-        return FILES[name].format(blade=blade, directions=self.directions)
+        return FILES[name].format(blade=self.scene.blade, directions=self.directions)
 
     @property
     def about(self) -> About:
@@ -76,6 +75,6 @@ class Row(Settings):
             "scene": self.label,
             "blade": self.scene.blade if self.scene else "",
             "against": self.against,
-            "rom": self.file("rom"),
+            "rom": self.file("rom") if self.scene else "",
             "settings": settings,
         }

@@ -34,7 +34,7 @@ def require_kept(entries: Iterable[About], kept: Mapping[str, Any], folder: str 
     lost = [entry["row"] for entry in entries if "key" in entry and entry["key"] not in kept]
     if lost:
         text = f"{len(lost)} rows are gone or damaged, the first is {lost[0]}: delete the files "
-        raise ProvenanceError(f"{text}block-*.json beside it, and run it again", file=folder)
+        raise ProvenanceError(f"{text}*block-*.json beside it, and run it again", file=folder)
 
 
 def rows(blocks: list[list[About]], folder: str) -> list[ComputedRow]:

@@ -426,13 +426,13 @@ def rows_of_block(wildcards):
     return len(range(int(wildcards.block), design_of(wildcards).count, len(blocks(wildcards))))
 
 
-def of_other_blades(pattern):
-    """A file of each blade that only some rows of a design have."""
+def of_other_blades(name, without=()):
+    """A file of each blade that only some rows of a design have, but for those ``without`` it."""
 
     def files(wildcards):
         directions = SCENES[wildcards.scene].directions
         _, *others = design_of(wildcards).blades
-        return [pattern.format(blade=blade, directions=directions) for blade in others]
+        return [f"results/{of}/{name}-{directions}.nc" for of in others if of not in without]
 
     return files
 

@@ -100,8 +100,8 @@ rule design_block:
         check=ancient(check_of_scene),
         settings=settings_of_scene,
         table=table_of_design,
-        models=of_other_blades("results/{blade}/rom-{directions}.nc"),
-        checks=ancient(of_other_blades("results/{blade}/rom-check-{directions}.nc")),
+        models=of_other_blades("rom"),
+        checks=ancient(of_other_blades("rom-check", FOREIGN)),
     output:
         json="results/{blade}/{scene}/design-block-{block}.json",
     log:
