@@ -163,7 +163,7 @@ def designs() -> Cases:
     def case(change: str, text: str, must: str) -> Case:
         def fault(design: Any) -> str:
             rows = [row.split(",") for row in text.split("\n")[1:]]
-            rows = [row for row in rows if any(cell.strip() for cell in row)]
+            rows = [row for row in rows if "".join(row).strip() or len(row) > 1]  # no blank line
             scenes = [row.scene for row in design.rows()]
             if len(scenes) != len(rows):
                 return f"{len(scenes)} rows of {len(rows)}"

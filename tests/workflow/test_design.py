@@ -18,12 +18,13 @@ from simulate.marching import STATUSES, SceneError
 from simulate.signals import leading_gap, leading_wear, lobe_count
 from simulate.sweeps.peak import along_order, peak_of, reported
 from simulate.sweeps.sweep import sweep
-from workflow.figures.designs import csv
+from workflow.figures.designs import csv, draw
 from workflow.many import design as of_design, design_rows, engine
 from workflow.many.design import Design
 from workflow.many.design_rows import load, run_type, save, tables
 from workflow.many.engine import march_block
 from workflow.many.expected import expected
+from workflow.many.table import last_words
 
 SPEEDS = {"first": 0.3, "last": 0.36, "count": 4}
 BASE = {"integrator": EXACT, "speeds": {"over_f1": SPEEDS}, "liner__law__unit_MPa": 200}
@@ -89,6 +90,7 @@ def test_a_row_is_the_scene_with_its_values(tmp_path):
     speeds = {"over_f1": [0.31, 0.32, 0.35]}
     assert scenes[1] == base.but(casing={"harmonics": harmonics}, speeds=speeds)
     assert scenes[2].peaks.orders == [4] and scenes[2].speeds == base.speeds
+    assert scenes_of(design(tmp_path, "liner.law.K,rounds\n0.3,\n,\n"))[1] == base
 
 
 def test_null_takes_a_key_away_and_another_kind_replaces_the_law(tmp_path):
@@ -138,7 +140,7 @@ def test_a_row_that_is_not_valid_stays_a_row_with_its_reason(coarse_rom, tmp_pat
     several = design(tmp_path, table)
     entries = march_block(several.rows(), tmp_path / "rows", 3, said.append, {"coarse": coarse_rom})
     assert ["key" in entry for entry in entries] == [False, True, False]
-    assert said[-1].startswith("warning: 2 of 3 rows have no result; the first: row 1, scene: ")
+    assert said[-1].startswith("warning: 2 of the 3 rows of this block refused; the first: row 1, ")
     runs, rows = tables(several, coarse_rom, [entries], tmp_path / "rows")
     assert runs["row"].values.tolist() == [2]
     assert rows["runs"].values.tolist() == [0, 1, 0] and (rows["status"][0] == -1).all()
@@ -148,6 +150,11 @@ def test_a_row_that_is_not_valid_stays_a_row_with_its_reason(coarse_rom, tmp_pat
     save(rows, tmp_path / "rows.nc")
     told = csv(load(tmp_path / "rows.nc")).splitlines()
     assert "why" in told[0] and "speeds.over_f1: 0.9: " in told[1] and len(told) == 4
+    (tmp_path / "design.csv").write_text("\n".join(told))
+    words = last_words(tmp_path / "design.csv")
+    assert words.startswith("3 rows; 2 refused, the first is row 1: speeds.over_f1: 0.9: ")
+    drawn = draw(rows)
+    assert drawn.legends[0].get_title().get_text() == "3 rows, 2 refused"
 
 
 def test_a_design_without_a_result_says_why(coarse_rom, tmp_path):

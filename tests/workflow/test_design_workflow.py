@@ -60,7 +60,7 @@ def rows_marched(project) -> list[str]:
 def test_blocks_rows_and_full_records(tmp_path):
     project = with_design(tmp_path)
     said = project.run()
-    last = f"Design of scene mine: {FOLDER}/design.csv, results/figures/design-mine.png."
+    last = f"Design of scene mine: {FOLDER}/design.csv, results/figures/design-mine.png; 3 rows."
     assert last in said
     table = (project.folder / FOLDER / "design.csv").read_text().splitlines()
     assert len(table) == 1 + 3 and table[0].startswith("row,liner.law.K,largest amplitude (µm)")
@@ -88,7 +88,8 @@ def test_blocks_rows_and_full_records(tmp_path):
     blade.write_text("base: paper\nmaterial: {young_modulus_GPa: 125}\n")
     (project.folder / TABLE).write_text("liner.law.K,blade\n0.3,\n0.3,other\n-1,\n")
     said = project.run(f"{FOLDER}/design.csv")
-    assert "warning: 1 of 1 rows have no result; the first: row 3, mine: liner.law.K: -1: " in said
+    assert "warning: 1 of the 1 rows of this block refused; the first: row 3, mine: liner" in said
+    assert "design.csv; 3 rows; 1 refused, the first is row 3: liner.law.K: -1: should" in said
     assert rows_marched(project) == ["2"]
     rows = load(project.folder / FOLDER / "design-rows.nc")
     assert rows["f1_Hz"].values[1] > 1.02 * rows["f1_Hz"].values[0] and np.isnan(rows["f1_Hz"][2])

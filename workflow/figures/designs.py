@@ -59,13 +59,23 @@ def csv(rows: Rows) -> str:
 def draw(rows: Rows) -> Figure:
     """Largest amplitude and deepest wear of each row over each number that the design changes.
 
-    Over the number of the row where it changes words alone.
+    Over the number of the row where it changes words alone. Rows of which a run ended otherwise
+    than ok are marked; those that are refused are counted.
     """
-    frame = table(rows).reset_index()
+    frame = table(rows).reset_index().sort_values("runs not ok", kind="stable")
+    refused, bad = int((frame["runs"] == 0).sum()), frame["runs not ok"] > 0
+    frame["ended"] = np.where(bad, "with runs not ok", "all runs ok")
+    marked = "ended" if refused or bad.any() else ""
     keys = [name for name in frame if name in rows and frame[name].dtype.kind == "f"]
-    records = frame.melt([LARGEST, DEEPEST], keys or ["row"], value_name=VALUE)
+    records = frame.melt([LARGEST, DEEPEST, "ended"], keys or ["row"], value_name=VALUE)
     return lines.draw(
-        records, VALUE, [LARGEST, DEEPEST], panel="variable", looks=[("o", style.BLACK)]
+        records,
+        VALUE,
+        [LARGEST, DEEPEST],
+        panel="variable",
+        line=marked,
+        labels={"ended": f"{len(frame)} rows, {refused} refused"},
+        looks=[("o", style.BLACK), ("x", style.VERMILLION)],
     )
 
 
@@ -92,7 +102,7 @@ def sensitivity(rows: Rows) -> Figure:
         drawn,
         "lower center",
         ncols=2,
-        title=f"{rows.sizes['row']} rows, {not_ok} with runs not ok",
+        title=f"{rows.sizes['row']} rows, {not_ok} with runs not ok; lines: 95 % intervals",
     )
     return drawn
 

@@ -15,6 +15,7 @@ from collections.abc import Container, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from itertools import islice
+from os.path import normpath
 from pathlib import Path
 from typing import Any, Self
 
@@ -78,7 +79,7 @@ class Design:
         """
         if scene.design is None:
             raise SettingsError("missing: give the table's CSV file", file=scene_path, key="design")
-        path, base = scene_path.parent / scene.design, scene.but(design=None)
+        path, base = Path(normpath(scene_path.parent / scene.design)), scene.but(design=None)
         about, blades, files = (path, scene_path.stem, base), {base.blade: None}, {str(path): None}
         if path.suffix in (".yaml", ".yml"):
             sobol = Sobol.load(path)
@@ -123,8 +124,9 @@ class Design:
         try:
             scene = _scene(values, self.columns, line)
         except SettingsError as error:
-            cells = dict.fromkeys(self.columns) | dict(zip(self.columns, line, strict=False))
-            given = {name: _read(cell) for name, cell in cells.items()}
+            cells = dict(zip(self.columns, line, strict=False))
+            of_base = {name: value_at(self.base, name) for name in self.columns}
+            given = of_base | {name: _read(cell) for name, cell in cells.items() if cell != ""}
             return Row(scene=None, refused=map(str, error.faults), given=given, **about)
         given = {name: value_at(scene, name) for name in self.columns}
         return Row(scene=scene, given=given, directions=self.base.directions, **about)
@@ -148,9 +150,9 @@ class Design:
 
 
 def _lines(path: Path) -> Iterator[list[str]]:
-    """Header and rows of the CSV file; lines without any value are left out."""
+    """Header and rows of the CSV file. A line of commas alone is the scene as it is."""
     try:
-        yield from (cells for _, cells in csv_rows(path) if any(cells))
+        yield from (cells for _, cells in csv_rows(path))
     except SettingsError as error:
         raise error.within(path) from None
 

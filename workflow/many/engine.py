@@ -218,5 +218,6 @@ def march_block(
             tell(refused[-1])
         entries.append(row.about | outcome)
     if refused:
-        tell(f"{WARNING}{len(refused)} of {total} rows have no result; the first: {refused[0]}")
+        count = f"{len(refused)} of the {total} rows of this block"
+        tell(f"{WARNING}{count} refused; the first: {refused[0]}")
     return entries

@@ -240,7 +240,10 @@ def _case(
         require_function(model, "model")
     scene = check_settings(Scene, values, "")
     if refused := [key for key in REFUSED if attrgetter(key)(scene)]:
-        raise SettingsError("is no key of an experiment: take it out", key=refused[0])
+        text = (
+            f"an experiment takes no scene with it: name another one, or write `{refused[0]}: null`"
+        )
+        raise SettingsError(text, key=refused[0])
     numbers = experiment.numbers
     function = numbers if isinstance(numbers, str) else numbers.get(label, "peaks")
     return Row(

@@ -15,6 +15,7 @@ from workflow.many.store import Store
 
 FIRST = ["group", "row", "scene", "blade", "refused", "cpu_s"]  # columns before the numbers
 OF_BLOCKS = ("number", "key")  # of an entry, which a table leaves out
+REASONS, NOT_OK = ("why", "refused"), ("runs not ok",)  # columns of tables as CSV
 NONE = {"cpu_s": 0.0, "numbers": None}  # of a row that is refused
 
 
@@ -69,6 +70,22 @@ def frame(rows: Sequence[ComputedRow]) -> pd.DataFrame:
     about = pd.DataFrame(rows).reindex(columns=FIRST)
     whole = pd.concat([about, numbers.drop(columns=lists)], axis=1)
     return whole.replace("", None).dropna(axis=1, how="all")
+
+
+def last_words(path: str | Path) -> str:
+    """How many rows the CSV table of a design or of an experiment has, and those without a result.
+
+    With the first reason; and how many rows of a design have runs that ended otherwise than ok.
+    """
+    rows = pd.read_csv(path, dtype={"row": str}).reindex(columns=[*REASONS, "row", "runs", *NOT_OK])
+    why = rows[REASONS[0]].where(rows["runs"] == 0).combine_first(rows[REASONS[1]])
+    refused = rows.assign(why=why)[why.notna()]
+    said = [f"{len(rows)} rows"]
+    if len(refused):
+        row, reason = refused.iloc[0][["row", "why"]]
+        said.append(f"{len(refused)} refused, the first is row {row}: {reason}")
+    bad = int((rows[NOT_OK[0]] > 0).sum())
+    return "; ".join([*said, *[f"{bad} with runs not ok"] * (bad > 0)])
 
 
 def csv(rows: Sequence[ComputedRow]) -> str:

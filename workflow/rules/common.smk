@@ -22,6 +22,7 @@ from geometry.base import (
 )
 from rom.polynomial import basis_speeds, check_speeds
 from workflow.many.design import Design
+from workflow.many.table import last_words as table_words
 from simulate.scene import Scene, fault_of_blade, own_laws
 from simulate.scene.casing import CASING
 from workflow.at_work import ANOTHER, hold, not_writable

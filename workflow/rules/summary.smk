@@ -61,6 +61,13 @@ onsuccess:
         pictures = [f"results/figures/{kind}-{name}.png" for kind in ("design", "sensitivity")]
         files = [f"results/{DELIVERED[name].blade}/{name}/design.csv", *pictures]
         if found := [file for file in files if file in made]:
-            print(f"Design of scene {name}: {', '.join(found)}.", flush=True)
+            print(
+                f"Design of scene {name}: {', '.join(found)}; {table_words(files[0])}.",
+                flush=True,
+            )
+    for path in sorted(
+        file for file in made if re.fullmatch(r"results/experiments/[^/]+/table\.csv", file)
+    ):
+        print(f"Experiment: {path}; {table_words(path)}.", flush=True)
     if SUMMARY in made:
         print(last_words("results"), flush=True)
