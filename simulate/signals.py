@@ -203,6 +203,6 @@ def maxima(
         return outward[: higher[0] if len(higher) else None].min()
 
     tops = 1 + np.flatnonzero((values[1:-1] > values[:-2]) & (values[1:-1] >= values[2:]))
-    tops = tops[values[tops] - values.min(initial=np.inf) >= least]
+    tops = tops[values[tops] - np.fmin.reduce(values, initial=np.inf) >= least]
     bases = [max(lowest(values[top::-1]), lowest(values[top:])) for top in tops]
     return tops, values[tops] - np.array(bases)

@@ -57,7 +57,7 @@ rom = Rom.load(model)
 with TemporaryDirectory() as kept:
     try:
         from workflow.many.design import Design
-        from workflow.many.design_rows import tables
+        from workflow.many.design_tables import tables
         from workflow.many.engine import march_block
         design = Design.load(folder / "rows.yaml")
         block = march_block(design.rows(), kept, design.count, models={"reference": rom})

@@ -32,7 +32,7 @@ from simulate.errors.model_errors import ModelErrors
 from simulate.sweeps import dataset
 from workflow.figures import rendering
 from workflow.jobs.figure import origins
-from workflow.many import design_rows
+from workflow.many import design_rows, design_tables
 from workflow.many.design import Design
 from workflow.many.engine import march_block
 
@@ -90,8 +90,8 @@ def readers(project, coarse_blade) -> dict[Path, Callable[[Path], Any]]:
         peak / "sweep.nc": sweep,
         peak / "stress.vtu": fields_of_peak,
         peak / "stress.json": read_json,
-        blade / "runs.nc": design_rows.load,
-        blade / "rows.nc": design_rows.load,
+        blade / "runs.nc": design_tables.load,
+        blade / "rows.nc": design_tables.load,
     }
 
 
@@ -110,9 +110,9 @@ def _write_tables(blade: Path, rom: Rom) -> None:
     design = Design.of(base, blade / "mine.yaml")
     entries = march_block(design.rows(), blade / "rows", 2, models={"paper": rom})
     for name, table in zip(
-        ("runs", "rows"), design_rows.tables(design, rom, [entries], blade / "rows"), strict=True
+        ("runs", "rows"), design_tables.tables(design, rom, [entries], blade / "rows"), strict=True
     ):
-        design_rows.save(table, blade / f"{name}.nc")
+        design_tables.save(table, blade / f"{name}.nc")
 
 
 def same(a: Any, b: Any) -> bool:
@@ -287,7 +287,7 @@ def test_checks_take_at_most_two_percent_of_a_run(readers, project, monkeypatch,
         monkeypatch.setattr(module, name, run)
 
     checks = {stored: "require_symmetric", Rom: "require_possible"}
-    checks |= {dataset: "_require_runs", design_rows: "_require_columns"}
+    checks |= {dataset: "_require_runs", design_tables: "_require_columns"}
     sealing = (files, solid, rendering)
     others = (stored, "tril"), *((module, "intact") for module in sealing)
     for module, name in (*checks.items(), *others):

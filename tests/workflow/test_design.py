@@ -21,7 +21,8 @@ from simulate.sweeps.sweep import sweep
 from workflow.figures.designs import csv, draw
 from workflow.many import design as of_design, design_rows, engine
 from workflow.many.design import Design
-from workflow.many.design_rows import load, run_type, save, tables
+from workflow.many.design_rows import run_type
+from workflow.many.design_tables import load, save, tables
 from workflow.many.engine import march_block
 from workflow.many.expected import expected
 from workflow.many.table import last_words
@@ -47,7 +48,14 @@ def scenes_of(table) -> list:
 def block_of(table, rom, folder, block=0, blocks=1, **more) -> list:
     """A block of the rows, as a job marches it."""
     chosen = range(block, table.count, blocks)
-    return march_block(table.rows(chosen), folder, len(chosen), models={"coarse": rom}, **more)
+    return written(
+        march_block(table.rows(chosen), folder, len(chosen), models={"coarse": rom}, **more)
+    )
+
+
+def written(entries) -> list:
+    """The entries of a block as its file has them, beside the store."""
+    return json.loads(json.dumps(entries))
 
 
 def made(table, rom, folder, blocks=1, choice=None) -> tuple[xr.Dataset, xr.Dataset]:
@@ -103,6 +111,8 @@ def test_null_takes_a_key_away_and_another_kind_replaces_the_law(tmp_path):
 FAULTS = {  # table, and what is refused of it before any row is marched: key, value, allowed
     "rouns\n" + "1\n" * 500: [("rouns", None, ["rounds"])],
     "rounds,liner.law.KK\n3,1\n": [("liner.law.KK", None, ["K"])],
+    "rounds,rouns\n3,\n4,5\n": [("rouns", None, ["rounds"])],
+    "start\n1\n": [("column", "start", None)],
     "blade.span\n1\n": [("column", "blade.span", None)],
     "accuracy\n0.01\n": [("column", "accuracy", None)],
     "rounds,rounds\n1,2\n": [("column", "rounds", None)],
@@ -157,11 +167,28 @@ def test_a_row_that_is_not_valid_stays_a_row_with_its_reason(coarse_rom, tmp_pat
     assert drawn.legends[0].get_title().get_text() == "3 rows, 2 refused"
 
 
+def test_a_column_that_one_row_cannot_have_is_no_wrong_column(coarse_rom, tmp_path):
+    """Of another law, of a speed beside that of the scene; and speeds that go on in turn."""
+    law = "liner.law.kind,liner.law.K,speeds\nelastic,0.4,\n,0.4,\n,,{rpm: [5000]}\n"
+    law += ',,"{over_f1: [0.3, 0.31], in_turn: true}"\n'
+    reasons = ["; ".join(row.refused) for row in design(tmp_path, law).rows()]
+    keys = ["liner.law.K: unknown key", "", "speeds: give exactly one of", "speeds.in_turn: "]
+    assert all(key in why for key, why in zip(keys, reasons, strict=True)) and not reasons[1]
+
+
+def test_values_of_refused_rows_are_numbers_or_nothing(coarse_rom, tmp_path):
+    """A text, or a number that no file holds, makes no words of a column; the reason has it."""
+    table = design(tmp_path, f"liner.law.K,rounds\n0.3,\nabc,\n{'9' * 400},\n0.4,3\n")
+    _, rows = made(table, coarse_rom, tmp_path / "rows")
+    np.testing.assert_array_equal(rows["liner.law.K"], [0.3, np.nan, np.nan, 0.4])
+    assert rows["rounds"].values.tolist() == [2, 2, 2, 3] and "abc" in rows["why"].values[1]
+
+
 def test_a_design_without_a_result_says_why(coarse_rom, tmp_path):
     table = design(tmp_path, "damping_ratio\n2\n3\n")
     entries = block_of(table, coarse_rom, tmp_path / "rows")
     error = refused(SettingsError, tables, table, coarse_rom, [entries], tmp_path / "rows")
-    assert "damping_ratio: 2: " in error.text
+    assert "damping_ratio: 2: " in error.text and error.key == "row 1"
 
 
 def test_a_run_that_ends_early_has_its_status_as_reason(coarse_rom, tmp_path):
@@ -178,19 +205,26 @@ def test_rows_are_counted_without_a_scene_of_each(tmp_path, monkeypatch):
     check = of_design.check_settings
     monkeypatch.setattr(of_design, "check_settings", lambda *of: read.append(1) or check(*of))
     table = design(tmp_path, "liner.law.K\n" + "0.3\n" * 20_000)
-    assert table.count == 20_000 and len(read) == 1
+    assert table.count == 20_000 and len(read) == of_design.LOOKED == 100
     (last,) = table.rows({19_999})
     assert last.number == 20_000 and last.scene.liner.law.K == 0.3
 
 
 def test_the_cost_is_that_of_all_rows(coarse_rom, tmp_path):
-    """Of 100 rows of four speeds, every second with three times the revolutions; of more, some."""
+    """Of 100 rows of four speeds, every second with three times the revolutions; or of more."""
     steps = 4 * 4 * EXACT["steps_per_round"]
     for rows, off in ((100, 0), (150, 0.1)):
         told = expected(design(tmp_path, "rounds\n" + "2\n6\n" * (rows // 2)), coarse_rom)
         assert told.startswith(f"{rows} rows, some {4 * rows} runs ")
         found = float(re.search(r"([\d.e+]+) steps", told)[1])
         assert found == pytest.approx(rows * steps, rel=off + 0.03)
+    steps = {"steps_per_round": 128, "rods_per_round": 127, "strips": 8}
+    errors = {"basis_error": 0.0, "mesh_error": None, "expected": 0.0}
+    chosen = Choice(accuracy=0.1, **steps, **errors, speeds=[], observed={})
+    with_accuracy = {"accuracy": 0.1, "integrator": None, "liner__rods_per_round": None}
+    with_accuracy |= {"liner__strips": None, "rounds": 2}
+    told = expected(design(tmp_path, "liner.law.K\n0.3\n", **with_accuracy), coarse_rom, chosen)
+    assert f": {4 * 2 * 128:.2g} steps" in told
     assert "of 1 that were looked at all are refused" in expected(
         design(tmp_path, "rounds\n-1\n"), coarse_rom
     )
@@ -203,7 +237,7 @@ def test_a_row_may_have_another_blade(coarse_rom, tmp_path):
     table = design(tmp_path, "liner.law.K,blade\n0.3,\n0.3,stiff\n")
     assert table.blades == ("coarse", "stiff")
     models, folder = {"coarse": coarse_rom, "stiff": stiffer}, tmp_path / "rows"
-    entries = march_block(table.rows(), folder, 2, models=models)
+    entries = written(march_block(table.rows(), folder, 2, models=models))
     _, rows = tables(table, coarse_rom, [entries], folder)
     np.testing.assert_allclose(rows["f1_Hz"], [coarse_rom.f1, stiffer.f1])
     assert rows["blade"].values.tolist() == ["coarse", "stiff"]

@@ -7,7 +7,7 @@ import pytest
 from projects import Project, make_project
 
 from simulate.sweeps.dataset import load as load_sweep
-from workflow.many.design_rows import load
+from workflow.many.design_tables import load
 
 SCENE = "workflow/scenes/mine.yaml"
 TABLE = "workflow/scenes/mine.csv"

@@ -7,7 +7,7 @@ import yaml
 from projects import make_project
 from refused import refused
 
-from geometry.base import SettingsError, UserError, read_json, silent
+from geometry.base import ROOT, SettingsError, UserError, read_json, silent, write_json
 from simulate.errors.observables import differences
 from simulate.sweeps.sweep import sweep
 from tests.simulate.scenes import scene
@@ -111,6 +111,7 @@ def test_lists_are_combined_and_scenes_may_be_written_in_place(planned):
         ("rows: {a: {}}\npicture: {kind: lines, x: row}\n", "picture.y", 3),
         ("rows: {a: {}}\npicture: {kind: cells, y: row}\n", "picture.value", 3),
         ("rows: {a: {}}\nnumbers: peeks\n", "numbers", 3),
+        ("rows: {a: {}}\ndrawn: 3\n", "drawn", 3),
         ("rows: {a: {}}\nnumbers: nowhere:peaks\n", "numbers", 3),
         ("rows:\n  a: {model: rom.basis:none}\n", "rows.a.model", 3),
         ("rows:\n  a: {directions: rx}\n", "rows.a.directions", 3),
@@ -255,6 +256,25 @@ def test_a_refused_row_stays_a_row_with_its_reason(on_coarse, tmp_path):
     assert fast["refused"].startswith("speeds.over_f1: 9: ") and fast["numbers"] is None
     assert "refused" not in as_it_is and as_it_is["numbers"]["ok"] == 1
     assert ",refused," in table.csv([fast, as_it_is]) and ",refused," not in table.csv([as_it_is])
+
+
+def test_a_row_whose_reference_is_refused_says_so(on_coarse, monkeypatch, tmp_path):
+    monkeypatch.setattr(engine, "code_hash", lambda *modules: "")  # of a test
+    rows = [one("fast", f"{__name__}:away", speeds={"over_f1": [9.0]})]
+    fast, other = march([*rows, one("other", f"{__name__}:away", "fast")], tmp_path / "rows")
+    assert fast["refused"].startswith("speeds.over_f1: 9: ")
+    assert other["refused"].startswith("against fast.speeds.over_f1: 9: ")
+    write_json([fast, other], tmp_path / "table.json")
+    error = refused(UserError, table.whole, tmp_path / "table.json")
+    assert error.key == "fast, only" and "speeds.over_f1: 9: " in error.text
+
+
+@pytest.mark.parametrize(
+    "file", sorted((ROOT / "workflow/experiments").glob("*.yaml")), ids=lambda file: file.stem
+)
+def test_all_experiments_can_be_planned(file, monkeypatch):
+    monkeypatch.chdir(ROOT)
+    assert cases(file)
 
 
 def told_number(number, scene):

@@ -60,7 +60,7 @@ from workflow.figures import (
 from workflow.figures.annotations import speed_text
 from workflow.figures.response import Response
 from workflow.jobs.figure import origins, read
-from workflow.many.design_rows import FORMAT, save as save_table
+from workflow.many.design_tables import FORMAT, save as save_table
 from workflow.many.sobol import Sobol, indices
 from workflow.paper.figures import (
     blade as blade_and_patches,

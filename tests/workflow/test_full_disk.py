@@ -30,7 +30,7 @@ from simulate.__main__ import main
 from simulate.sweeps import dataset
 from simulate.sweeps.sweep import sweep
 from workflow.figures import style
-from workflow.many import design_rows
+from workflow.many import design_tables
 
 BLADE, SWEEP = "results/paper", "paper-e1/sweep.nc"
 ROOM = 60_000  # bytes: less than each of the files
@@ -73,7 +73,7 @@ SAVERS: dict[str, Callable[[Path, Blade], Callable[[Path], Any]]] = {
     "rom-r.nc": lambda blade, _: Rom.load(blade / "rom-r.nc").save,
     "basis-r.h5": lambda blade, _: Basis.load(blade / "basis-r.h5").save,
     "sweep.nc": lambda blade, _: partial(dataset.save, dataset.load(blade / SWEEP)),
-    "runs.nc": lambda blade, _: partial(design_rows.save, dataset.load(blade / SWEEP)),
+    "runs.nc": lambda blade, _: partial(design_tables.save, dataset.load(blade / SWEEP)),
     "settings.json": lambda *_: partial(write_json, {"speeds": [0.1] * ROOM}),
     "field.vtu": lambda *_: lambda path: made_fields().save(path, {"time": 1.0}),
     "figure.pdf": lambda *_: partial(style.save, drawn()),

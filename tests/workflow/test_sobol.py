@@ -10,7 +10,7 @@ from scenes import EXACT, scene
 
 from geometry.base import SettingsError
 from workflow.many.design import Design
-from workflow.many.design_rows import load, save, tables
+from workflow.many.design_tables import load, save, tables
 from workflow.many.engine import march_block
 from workflow.many.sobol import Sobol, SobolError, indices
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from simulate.scene import TRENDS
 from workflow.figures import lines, style
 from workflow.figures.units import MICRO, RPM_PER_HZ
-from workflow.many.design_rows import Rows
+from workflow.many.design_tables import Rows
 from workflow.many.sobol import indices
 
 LARGEST, DEEPEST = "largest amplitude (µm)", "deepest wear (µm)"  # of all runs of a row

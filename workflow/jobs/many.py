@@ -9,7 +9,7 @@ from simulate.scene import Scene
 from simulate.sweeps import dataset
 from simulate.sweeps.sweep import sweep as swept
 from workflow.many.design import Design
-from workflow.many.design_rows import save, tables as tables_of
+from workflow.many.design_tables import save, tables as tables_of
 from workflow.many.engine import march_block
 from workflow.many.expected import expected
 from workflow.many.row import About, Row
@@ -36,7 +36,7 @@ def design(
     of = Design.of(scene, Path(file))
     chosen = range(int(block), of.count, blocks)
     if block == "0":
-        report(expected(of, rom))
+        report(expected(of, rom, settings))
     rows = of.rows(chosen)
     return march_block(rows, folder, len(chosen), tell, {scene.blade: rom}, settings)
 

@@ -11,7 +11,8 @@ scene where it is computed. A row whose scene is not valid stays a row, with its
 
 import os
 import re
-from collections.abc import Container, Iterator, Sequence
+import sys
+from collections.abc import Container, Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from itertools import islice
@@ -27,12 +28,15 @@ from workflow.many.columns import COLUMN, keys, placed, value_at
 from workflow.many.row import Row
 from workflow.many.sobol import Sobol
 
-FILE = re.compile(r"[/\\]|\.[^\W\d]")  # which the name of a file has, and no number
+# What the name of a file has, and no number
+FILE = re.compile(r"[/\\]|\.(?![eEdD][+-]?\d)[^\W\d]")
+LOOKED = 100  # rows at most by whose scenes the columns are checked
 NUMBERS = "workflow.many.design_rows:numbers"  # function of a row
 BLADE = "blade"  # column
 REFUSED = {  # columns that no row may have, by their first key
     "accuracy": "one pilot chooses step, rods and strips for all rows: give it in the scene",
     "design": "a row is one scene",
+    "start": "a row starts from rest",
     "base": "give it in the scene",
     "format": "give it in the scene",
 }
@@ -91,13 +95,17 @@ class Design:
         columns, count = next(lines, []), 0
         _require_columns(path, columns, base)
         at = columns.index(BLADE) if BLADE in columns else len(columns)
+        first: list[list[str]] = []
         for count, line in enumerate(lines, 1):
-            if count == 1:
-                _require_keys(path, base, columns, line)
+            if count <= LOOKED:
+                first.append(line)
             blades |= dict.fromkeys(filter(None, line[at : at + 1]))
             files |= dict.fromkeys(filter(FILE.search, line))
         if not count:
             raise SettingsError("needs a header of keys and at least one row", file=path)
+        _require_keys(path, base, columns, first)
+        named = (_read(cell) for cell in blades)  # another value is refused in its row
+        blades = [name for name in named if isinstance(name, str)]
         texts = {text for cell in files for text in _texts(_read(cell))}
         named = str(path), *sorted(filter(os.path.isfile, texts - {str(path)}))
         return cls(*about, columns, count, tuple(blades), named)
@@ -126,9 +134,14 @@ class Design:
         except SettingsError as error:
             cells = dict(zip(self.columns, line, strict=False))
             of_base = {name: value_at(self.base, name) for name in self.columns}
-            given = of_base | {name: _read(cell) for name, cell in cells.items() if cell != ""}
+            said = of_base | {name: _read(cell) for name, cell in cells.items() if cell != ""}
+            given = {name: value if _is_number(value) else None for name, value in said.items()}
             return Row(scene=None, refused=map(str, error.faults), given=given, **about)
-        given = {name: value_at(scene, name) for name in self.columns}
+        found = {name: value_at(scene, name) for name in self.columns}
+        given = {
+            name: value if value is None or _is_number(value) else str(value)
+            for name, value in found.items()
+        }
         return Row(scene=scene, given=given, directions=self.base.directions, **about)
 
     def require_row(self, row: int) -> Scene:
@@ -187,20 +200,32 @@ def _refused(name: str, columns: Sequence[str], base: Scene) -> list[str]:
     return faults + ["is there twice"] * (columns.count(name) > 1)
 
 
-def _require_keys(path: Path, base: Scene, columns: Sequence[str], line: Sequence[str]) -> None:
-    """Refuse columns that are no keys of the scene, by the first ``line``.
+def _require_keys(
+    path: Path, base: Scene, columns: Sequence[str], lines: Iterable[Sequence[str]]
+) -> None:
+    """Refuse columns that are no keys of the scene in any of the ``lines`` that have a value there.
 
     Raises
     ------
     SettingsError
         With a line for each.
     """
-    try:
-        _scene(base.model_dump(exclude_unset=True), columns, line)
-    except SettingsError as error:
-        unknown = [fault for fault in error.faults if fault.value is None and fault.allowed]
-        if unknown:
-            raise SettingsError(*unknown, file=f"{path}: column") from None
+    values, unknown, known = base.model_dump(exclude_unset=True), {}, set()
+    for line in lines:
+        faults = {}
+        try:
+            _scene(values, columns, line)
+        except SettingsError as error:
+            faults = {fault.key: fault for fault in error.faults if "unknown key" in fault.text}
+        for column, cell in zip(columns, line, strict=False):
+            above = [key for key in faults if f"{column}.".startswith(f"{key}.")]
+            if above:
+                unknown[column] = faults[above[0]]
+            elif cell not in ("", "null"):
+                known.add(column)
+    wrong = {str(fault): fault for column, fault in unknown.items() if column not in known}
+    if wrong:
+        raise SettingsError(*wrong.values(), file=f"{path}: column")
 
 
 def _scene(values: dict[str, Any], columns: Sequence[str], line: Sequence[Any]) -> Scene:
@@ -208,7 +233,15 @@ def _scene(values: dict[str, Any], columns: Sequence[str], line: Sequence[Any]) 
     if len(line) != len(columns):
         raise SettingsError(f"{len(line)} cells for {len(columns)} columns")
     cells = {name: cell for name, cell in zip(columns, line, strict=True) if cell != ""}
-    return check_settings(Scene, placed(values, cells, read=_cell), "")
+    scene = check_settings(Scene, placed(values, cells, read=_cell), "")
+    if scene.speeds.in_turn:
+        raise SettingsError("allowed false: speeds of a row start from rest", key="speeds.in_turn")
+    return scene
+
+
+def _is_number(value: Any) -> bool:
+    """Whether a value is a number that a table holds."""
+    return isinstance(value, int | float) and abs(value) < sys.float_info.max
 
 
 def _require_numbers(path: Path, columns: Sequence[str], base: Scene) -> None:

@@ -6,13 +6,14 @@ number of blocks, is computed only if the store has it not. A row that is refuse
 its reason.
 """
 
+from collections import deque
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cache, cached_property, lru_cache, partial
 from importlib import import_module
 from inspect import signature
 from pathlib import Path
-from statistics import median
+from statistics import mean, median
 from time import monotonic, process_time
 from typing import Any
 
@@ -42,6 +43,7 @@ from simulate.sweeps.sweep import sweep
 from workflow.many.row import About, Row
 from workflow.many.store import Store
 
+RECENT = 100  # rows computed, by whose time the time left is told
 TURNS, LONG = 3, 1.0  # most times a run is computed, and CPU time, s, after which no more
 
 
@@ -183,7 +185,13 @@ def march_block(
     @lru_cache(maxsize=1)
     def reference(label: str, row: str) -> Marched:
         """Row with which others are compared, computed once for all that follow."""
-        return on_model(named[label, row])
+        marched = on_model(named[label, row])
+        try:
+            if marched.rom is not None:
+                check_scene(marched.scene, marched.rom)
+        except UserError as error:
+            raise error.within(key=f"against {row}") from None
+        return marched
 
     def on_model(row: Row) -> Marched:
         """The row on its model, with the row with which it is compared."""
@@ -199,14 +207,16 @@ def march_block(
         """Key of the row, whose numbers are then in the store."""
         if row.scene is None:
             raise SettingsError(*row.refused)
-        marched, begun, shared.row = on_model(row), process_time(), row.row
+        marched, begun, shared.row = on_model(row), monotonic(), row.row
         if marched.key not in store.keys:
             store.add(marched.key, marched.numbers())
-            ahead = progress.remaining(len(entries) + 1, total, monotonic() - start)
-            tell(f"row {row.row}, {row.label}: {process_time() - begun:.2f} s; row {ahead}")
+            took.append(monotonic() - begun)
+            done = len(entries) + 1
+            ahead = progress.remaining(done, total, done * mean(took))
+            tell(f"row {row.row}, {row.label}: {took[-1]:.2f} s; row {ahead}")
         return marched.key
 
-    entries, start, refused = [], monotonic(), []
+    entries, took, refused = [], deque(maxlen=RECENT), []
     for row in rows:
         try:
             outcome = {"key": computed(row)}

@@ -61,6 +61,11 @@ class Group(Settings):
     )
     against: str | None = Field(default=None, description="Row to compare the others with")
 
+    @checked
+    def _has_one_source(self) -> None:
+        if self.drawn and (self.rows or self.each):
+            raise SettingsError("give either rows or each, or drawn", key="drawn", value=self.drawn)
+
     def combined(self, place: Keys, lists: Mapping[str, Rows]) -> Iterator[tuple[list[Keys], list]]:
         """Places, in a file that has the group ``place`` one, and changes of each row."""
         choices = [(("lists", name), lists[name]) for name in self.each] or [

@@ -4,11 +4,11 @@ from collections.abc import Iterable, Mapping, Sequence
 from itertools import chain
 from operator import itemgetter
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 import pandas as pd
 
-from geometry.base import ProvenanceError
+from geometry.base import ProvenanceError, UserError, read_json
 from workflow import markdown
 from workflow.many.row import About, ComputedRow
 from workflow.many.store import Store
@@ -54,6 +54,25 @@ def rows(blocks: list[list[About]], folder: str) -> list[ComputedRow]:
         | kept.get(entry.get("key"), NONE)
         for entry in entries
     ]
+
+
+def whole(path: str | Path) -> list[ComputedRow]:
+    """The rows of a table, for a function of all of them.
+
+    Raises
+    ------
+    geometry.base.errors.UserError
+        When a row is refused, with its reason; or the table cannot be read.
+    """
+    found = read_json(path)
+    for row in found:
+        if "refused" in row:
+            text = f"{row['refused']}: mend the row, and run the experiment again"
+            raise UserError(text, file=path, key=f"{row['row']}, {row['scene']}")
+    return found
+
+
+Whole = Annotated[Sequence[ComputedRow], whole]  # an argument of a job, read from its path
 
 
 def frame(rows: Sequence[ComputedRow]) -> pd.DataFrame:

@@ -12,6 +12,7 @@ from rom.model import Rom
 from simulate.scene import Scene
 from simulate.sweeps.dataset import Sweep
 from workflow.many.row import ComputedRow
+from workflow.many.table import Whole, whole
 from workflow.paper import measure
 from workflow.paper.grid import growth, long_cases, of_rows, worst
 from workflow.paper.laws import slopes_over_closed_form
@@ -38,7 +39,7 @@ def of_scenes(
     two_five: Sweep,
     tilted: Sweep,
     tangential: Sweep,
-    grid: Sequence[ComputedRow],
+    grid: Whole,
     growth: Mapping[str, Any],
     more: list[Numbers],
 ) -> Numbers:
@@ -55,7 +56,7 @@ def of_scenes(
     return numbers
 
 
-def worst_runs(table: Sequence[ComputedRow], growth: Mapping[str, Sequence[Any]]) -> dict[str, Any]:
+def worst_runs(table: Whole, growth: Mapping[str, Sequence[Any]]) -> dict[str, Any]:
     """Long runs of the worst coatings, and the peak of the bare casing."""
     (cases,) = growth.values()
     (rigid,) = [row["numbers"] for row in table if row["scene"] == "rigid"]
@@ -70,8 +71,7 @@ def editions(table: str, growth: str = "", model: str = "") -> dict[str, Numbers
     model_numbers = read_json(model) if model else {}
     long = read_json(growth) if growth else {}
     return {
-        name: numbers | model_numbers
-        for name, numbers in numbers_of(read_json(table), long).items()
+        name: numbers | model_numbers for name, numbers in numbers_of(whole(table), long).items()
     }
 
 
@@ -93,7 +93,7 @@ def numbers_of(rows: Sequence[ComputedRow], long: Mapping[str, Any]) -> dict[str
     return found
 
 
-def growth_of(table: Sequence[ComputedRow]) -> dict[str, Any]:
+def growth_of(table: Whole) -> dict[str, Any]:
     """Long runs of each edition with the table of E and K; None where a coating has no peak."""
     return {
         name: [

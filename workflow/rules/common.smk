@@ -155,7 +155,8 @@ def scene_settings(name):
         for blade in design.blades:
             if blade not in BLADE_FILES:
                 raise WorkflowError(
-                    f"{design.path}: column blade: {blade!r}: no workflow/blades/{blade}.yaml"
+                    f"{design.path}: column blade: {blade!r}: no workflow/blades/{blade}.yaml; there are "
+                    + ", ".join(BLADE_FILES)
                 )
     return scene
 
@@ -438,15 +439,15 @@ def of_other_blades(name, without=()):
     return files
 
 
-def rom_of_row(wildcards):
-    """The reduced model of a row of a design."""
-    blade = read_or_fail(design_of(wildcards).require_row, int(wildcards.row)).blade
-    own = blade == wildcards.blade
-    return (
-        rom_of_scene(wildcards)
-        if own
-        else f"results/{blade}/rom-{SCENES[wildcards.scene].directions}.nc"
-    )
+def of_row(of_scene, name, without=()):
+    """A file of the model of a row of a design: that of its scene, or of another blade."""
+
+    def file(wildcards):
+        blade = read_or_fail(design_of(wildcards).require_row, int(wildcards.row)).blade
+        path = f"results/{blade}/{name}-{SCENES[wildcards.scene].directions}.nc"
+        return of_scene(wildcards) if blade == wildcards.blade else [] if blade in without else path
+
+    return file
 
 
 def delivered(wildcards):

@@ -95,7 +95,7 @@ rule sweep:
 # number of blocks, marches only rows that are not there.
 rule design_block:
     input:
-        code=code_of("workflow.jobs.many", "workflow.many.design_rows"),
+        code=code_of("workflow.jobs.many"),
         rom=rom_of_scene,
         check=ancient(check_of_scene),
         settings=settings_of_scene,
@@ -154,8 +154,8 @@ rule design:
 rule design_row:
     input:
         code=code_of("workflow.jobs.many"),
-        rom=rom_of_row,
-        check=ancient(check_of_scene),
+        rom=of_row(rom_of_scene, "rom"),
+        check=ancient(of_row(check_of_scene, "rom-check", FOREIGN)),
         settings=settings_of_scene,
         table=table_of_design,
     output:

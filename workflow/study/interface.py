@@ -6,6 +6,7 @@ import numpy as np
 
 from workflow import markdown
 from workflow.many.row import ComputedRow
+from workflow.many.table import Whole
 
 type Rows = Sequence[ComputedRow]
 
@@ -28,7 +29,7 @@ OPERATOR_BARS = {"constant": 1e-8, "linear": 1e-8, "ST": 1e-9, "compliance_of_mo
 FREQUENCY_BAR, STRESS_BAR = 1e-4, 0.03
 
 
-def table(changes: Rows, models: Rows) -> str:
+def table(changes: Whole, models: Whole) -> str:
     """The whole study as Markdown, a table under each title.
 
     ``changes``, ``models``: rows of the experiments ``interface`` and ``interface-models``.

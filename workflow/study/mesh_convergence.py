@@ -24,6 +24,7 @@ from scipy.optimize import minimize_scalar
 from workflow import markdown
 from workflow.figures import style
 from workflow.many.row import ComputedRow
+from workflow.many.table import Whole
 
 ORDERS = (0.5, 4.0)  # range of the order; at most 4 for frequencies of quadratic elements
 SAFETY = 1.25  # factor of Celik and others, for three sizes and an observed order
@@ -120,7 +121,7 @@ def _error(quantity: Mapping[str, Any], m: int, index: int) -> str:
 
 
 @style.styled
-def draw(study: list[ComputedRow]) -> Figure:
+def draw(study: Whole) -> Figure:
     """Errors against the limit, one line for each mode at rest and one for the tip deflection.
 
     ``study``: rows of the experiment.

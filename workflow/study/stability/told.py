@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from workflow.figures import lines, units
 from workflow.many.row import ComputedRow
+from workflow.many.table import Whole
 from workflow.study.stability.matrix import counts
 
 KINDS = {
@@ -113,7 +114,7 @@ def passes(h: NDArray[np.float64], error: NDArray[np.float64], level: float) -> 
     return float(np.exp(np.interp(np.log(level), np.log(error[around]), np.log(h[around]))))
 
 
-def draw(study: list[ComputedRow]) -> Figure:
+def draw(study: Whole) -> Figure:
     """Left: an always engaged elastic liner. Right: a plastic liner, steps by error of wear."""
     by_error = {
         f"{scheme} wear {error}": f"{name}: error of wear {words}"
