@@ -5,19 +5,21 @@ Every third is in slow tests, all are in nightly ones; least counts are in propo
 """
 
 import re
+from contextlib import suppress
 from dataclasses import asdict, replace
 from itertools import count, islice
 
 import numpy as np
 import pytest
 
-from geometry.base import in_rpm
+from geometry.base import UserError, in_rpm
 from geometry.blade import EnrichedBasis
 from geometry.hats import middles
 from rom.reduce import reduce
 from simulate.errors.neighbours import EIGHTH, HALF, QUARTER, TWICE
 from workflow.study.stability.cases import EXACT, F1, FIRST_STRIP_DEG, SEED, Case, Dice, draw
 from workflow.study.stability.matrix import End, Verdict, counts, judge_case
+from workflow.study.stability.sweeps import _whole, judged
 from workflow.study.stability.told import extremes, sweeps
 
 CASES, CHANGING = 100, 110  # of which at least ten are right, flagged and refused
@@ -66,6 +68,9 @@ def draw_long(number: int, patches: int) -> Case:
     speed = {"over_f1": [dice.uniform(0.1, 0.4)]}
     scene = {**case.scene, "speeds": speed, "liner": {**case.scene["liner"], **rods}}
     return replace(case, scene=scene, scheme=EXACT, footprints=dice.decades(1, 4))
+
+
+CHEAP = 14  # a case of few steps whose sweep has one peak
 
 
 def rows_of(ends):
@@ -229,3 +234,14 @@ def test_the_sentence_of_sweeps_has_their_peaks():
     study += [{"peaks": peaks[:1], "share": 7.5}, None]  # the last cannot be swept
     rows = [{"numbers": numbers} for numbers in study]
     assert re.findall(r"\d+%?", sweeps(rows)) == ["3", "12", "3", "1", "10", "10%"]
+
+
+def test_some_cases_can_be_swept_and_their_peaks_have_references(rom):
+    """Bounds of the matrix, less than a revolution, let none be swept. A cheap one is judged."""
+    swept = []
+    for number in range(1, 40):
+        with suppress(UserError):
+            swept.append((number, _whole(draw(number - 1, PATCHES), rom)))
+    assert len(swept) > 5 and CHEAP in dict(swept)
+    found = judged(CHEAP, rom)
+    assert len(found["peaks"]) == 1 and 0 < found["share"] < 10

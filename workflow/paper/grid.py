@@ -27,7 +27,6 @@ from simulate.signals import (
 from simulate.sweeps.dataset import statuses
 from simulate.sweeps.over_speeds import as_sweep, at_speeds
 from simulate.sweeps.peak import peak_of
-from workflow.many.table import Whole
 from workflow.paper.published import ENGINE_ORDER, WORST, E, K
 
 OF_PEAK = ("Omega_c", "over_crossing", "amplitude", "at_end", "clear")  # of ``Peak.plain``
@@ -98,7 +97,7 @@ def _predictable(rom: Rom, scene: Scene, numbers: Numbers) -> dict[str, Any]:
     return _end(as_sweep(with_twin, check=False).isel(speed_over_f1=0))
 
 
-def of_rows(rows: Whole) -> dict[str, Any]:
+def of_rows(rows: Sequence[Numbers]) -> dict[str, Any]:
     """The table from the rows of an experiment, those on the scene `grid`."""
     cases = [row["numbers"] for row in rows if row["scene"] == "grid"]
     orders = sorted({int(k) for case in cases for k in case["peaks"]})

@@ -57,8 +57,10 @@ class Ready(NamedTuple):
     finer: int  # ratio of its step to that of the references
 
 
-def ready(case: Case, rom: Rom) -> Ready:
+def ready(case: Case, rom: Rom, longer: float = 1.0) -> Ready:
     """Check and prepare a case as a sweep does, and cut the time marched to bound its cost.
+
+    ``longer``: times the bounds of the time marched.
 
     Raises
     ------
@@ -72,7 +74,7 @@ def ready(case: Case, rom: Rom) -> Ready:
     scene, setup = _prepared(case, rom, _integrator(case, rom, limit))
     times = min(max(FINER, int(np.ceil(setup.h / (FINE * limit)))), FINEST)
     marched = Marched(scene, rom, setup)
-    return Ready(_cut(case, marched, _seconds(limit, setup, times)), times)
+    return Ready(_cut(case, marched, longer * _seconds(limit, setup, times)), times)
 
 
 def _prepared(case: Case, rom: Rom, integrator: Mapping[str, Any]) -> tuple[Scene, Setup]:

@@ -12,8 +12,8 @@ from rom.model import Rom
 from simulate.errors.checked import checked
 from simulate.errors.observables import LEAST, numbers as numbers_of
 from simulate.errors.run import Run
-from simulate.marching import STATED, WITH_RESULT, SceneError
-from simulate.sweeps.over_speeds import as_sweep, at_speeds, check_sweep
+from simulate.marching import STATED, WITH_RESULT, SceneError, check_scene
+from simulate.sweeps.over_speeds import as_sweep, at_speeds, check_steps
 from simulate.sweeps.peak import along_order
 from simulate.sweeps.peak_results import asked
 from workflow.study.stability.cases import Case, draw
@@ -21,6 +21,7 @@ from workflow.study.stability.matrix import Ready, ready, references
 
 MIDDLE, SPEEDS = 0.31, {"first": 0.24, "last": 0.38, "count": 12}  # over f1(0)
 SPECTRUM, MOST = 4, 8  # revolutions of the spectrum, and of a run
+LONGER = 30.0  # than a case of the matrix, whose bounds are less than a revolution
 RESPONSE = 0.01  # gaps: peaks below are none
 RECORD = {"samples_per_round": 64, "spectrum_rounds": SPECTRUM}
 
@@ -58,12 +59,13 @@ def _whole(case: Case, rom: Rom) -> Ready:
         When it is refused, or its revolutions are too costly.
     """
     at_middle = replace(case, scene=case.scene | {"speeds": {"over_f1": [MIDDLE]}, "rounds": MOST})
-    of = ready(at_middle, rom)
+    of = ready(at_middle, rom, LONGER)
     scene, rounds = of.case.scene, of.case.scene.rounds
     if rounds < SPECTRUM or of.case.setup.steps != of.case.steps_of_a_turn:
         raise SceneError("a revolution is too costly", key="rounds")
     scene = scene.but(speeds={"over_f1": SPEEDS}, record=RECORD | {"history": None})
-    check_sweep(scene, rom)
+    check_scene(scene, rom)
+    check_steps(scene, rom)
     return Ready(replace(of.case, scene=scene), of.finer)
 
 
