@@ -5,7 +5,7 @@ displacements and wear over the gap at xi = 1/16. Displacements are those at xi 
 mean over the leading eighth of the chord.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
