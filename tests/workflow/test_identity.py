@@ -57,13 +57,13 @@ FILES = {  # of the user, with the output whose job reads it
     "workflow/blades/foreign.nc": "results/foreign/rom-r.nc",
     "workflow/laws/foam.py": "results/foreign/own-law/block-0.nc",
     "workflow/laws/helper.py": "results/foreign/own-law/block-0.nc",
-    "workflow/laws/row.py": "results/foreign/laws/design-block-0.nc",
+    "workflow/laws/row.py": "results/foreign/laws/design-block-0.json",
     "workflow/scenes/curve.csv": "results/foreign/curved/block-0.nc",
     "workflow/scenes/casing.csv": "results/foreign/bumps/block-0.nc",
-    "workflow/scenes/rows.csv": "results/foreign/rows/design-block-0.nc",
-    "workflow/scenes/of-row.csv": "results/foreign/rows/design-block-0.nc",
-    "workflow/scenes/laws.csv": "results/foreign/laws/design-block-0.nc",
-    "workflow/scenes/within.csv": "results/foreign/laws/design-block-0.nc",
+    "workflow/scenes/rows.csv": "results/foreign/rows/design-block-0.json",
+    "workflow/scenes/of-row.csv": "results/foreign/rows/design-block-0.json",
+    "workflow/scenes/laws.csv": "results/foreign/laws/design-block-0.json",
+    "workflow/scenes/within.csv": "results/foreign/laws/design-block-0.json",
 }
 NO_JOB = """
 from pathlib import Path
@@ -164,7 +164,7 @@ def test_other_bytes_with_an_old_time_rerun_what_read_them(copy, attack):
 @pytest.mark.parametrize("path", FILES)
 def test_each_file_alone_reruns_the_job_that_reads_it(copy, path):
     replaced_by_older(copy.folder / path, texts("7")[path])
-    both = {"results/foreign/rows/design-block-0.nc", "results/foreign/curved/block-0.nc"}
+    both = {"results/foreign/rows/design-block-0.json", "results/foreign/curved/block-0.nc"}
     of_model = {output for output in OUTPUTS if output.startswith("results/foreign/")}
     assert remade(copy) == {"curve.csv": both, "foreign.nc": of_model}.get(
         Path(path).name, {FILES[path]}

@@ -23,13 +23,13 @@ from typing import Any, Self
 import numpy as np
 
 from geometry.base import Fault, SettingsError, check_settings, csv_rows, number, parse
-from simulate.scene import Scene
+from simulate.scene import Scene, own_laws
 from workflow.many.columns import COLUMN, keys, placed, value_at
 from workflow.many.row import Row
 from workflow.many.sobol import Sobol
 
-# What the name of a file has, and no number
-FILE = re.compile(r"[/\\]|\.(?![eEdD][+-]?\d)[^\W\d]")
+# What the name of a file or of a law of one's own has, and no number
+FILE = re.compile(r"[/\\]|\.(?![eEdD][+-]?\d)[^\W\d]|\w:[^\W\d]")
 LOOKED = 100  # rows at most by whose scenes the columns are checked
 NUMBERS = "workflow.many.design_rows:numbers"  # function of a row
 BLADE = "blade"  # column
@@ -59,6 +59,7 @@ class Design:
     count: int  # of the rows
     blades: tuple[str, ...]  # of the rows, that of the scene first
     files: tuple[str, ...]  # paths of the table, and of those that its cells name
+    laws: tuple[str, ...] = ()  # of one's own that its cells name, module:class
     sobol: Sobol | None = None  # where it has drawn the rows
 
     @classmethod
@@ -90,7 +91,7 @@ class Design:
             columns = [key for factor in sobol.factors.values() for key in factor.keys]
             _require_columns(path, columns, base)
             _require_numbers(path, columns, base)
-            return cls(*about, columns, sobol.rows, tuple(blades), tuple(files), sobol)
+            return cls(*about, columns, sobol.rows, tuple(blades), tuple(files), sobol=sobol)
         lines = _lines(path)
         columns, count = next(lines, []), 0
         _require_columns(path, columns, base)
@@ -108,7 +109,8 @@ class Design:
         blades = [name for name in named if isinstance(name, str)]
         texts = {text for cell in files for text in _texts(_read(cell))}
         named = str(path), *sorted(filter(os.path.isfile, texts - {str(path)}))
-        return cls(*about, columns, count, tuple(blades), named)
+        laws = sorted({law for cell in files for law in re.findall(own_laws.KIND, cell)})
+        return cls(*about, columns, count, tuple(blades), named, tuple(laws))
 
     def rows(self, chosen: Container[int] | None = None) -> Iterator[Row]:
         """The ``chosen`` rows (from 0), or all, with their scenes, which are read and checked."""

@@ -2,6 +2,7 @@ import logging
 import os
 import re
 import sys
+from contextlib import suppress
 from functools import cache
 from itertools import chain
 from pathlib import Path
@@ -323,17 +324,16 @@ def contents_of_blade(wildcards):
 
 
 def contents_of_scene(wildcards):
-    """Hashes of the files that runs of the scene read: of its design, and of laws of one's own.
-
-    Rows of a design may have any of the laws: those whose law is as it was are not marched again.
-    """
+    """Hashes of the files that runs of the scene read: of its design, and of laws of one's own."""
     scene = SCENES[wildcards.scene]
-    laws = scene.liner.law.code_files
-    own = dict(zip(here(laws), laws.values()))
-    if scene.design is None:
-        return Told(own)
-    files = *DESIGNS[wildcards.scene].files, *sorted(map(str, own_laws.FOLDER.glob("*.py")))
-    return Told(own | read_or_fail(hashes, files))
+    laws, files = dict(scene.liner.law.code_files), ()
+    if scene.design:
+        design = DESIGNS[wildcards.scene]
+        files = design.files
+        for law in design.laws:
+            with suppress(SettingsError):  # it is refused in its row
+                laws |= own_laws.named(law).code_files
+    return Told(read_or_fail(hashes, files) | dict(zip(here(laws), laws.values())))
 
 
 def blade_file(wildcards):
