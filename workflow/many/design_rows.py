@@ -1,7 +1,7 @@
 """The numbers of a row of a design: of its runs, and of its peaks; and the tables of all rows."""
 
 from collections.abc import Iterable, Sequence
-from functools import partial
+from functools import cache, partial
 from operator import attrgetter
 from typing import Any
 
@@ -61,6 +61,7 @@ COLUMNS = {  # numbers of each run: type, unit, meaning
 ALWAYS = {"speed", "speed_over_f1", "f1", "wear", "wear_mean", "contact_share", "casing_work"}
 
 
+@cache  # one for all rows: it takes kilobytes
 def run_type(orders: int) -> np.dtype:
     """Structured type of the numbers of a run, with amplitudes along engine orders 1, 2, ..."""
     lengths = {"amplitudes": (orders,)}
@@ -203,6 +204,7 @@ def _of_row(scene: Scene, rom: Rom, runs: NDArray, sought: Sequence[int]) -> dic
     return {name: found[name] for name in ROW_COLUMNS}
 
 
+@cache
 def row_type(orders: int) -> np.dtype:
     """Structured type of the numbers of a row, of whose peaks ``orders`` are sought."""
     return np.dtype(
