@@ -15,7 +15,6 @@ from workflow.many.store import Store
 
 FIRST = ["group", "row", "scene", "blade", "refused", "cpu_s"]  # columns before the numbers
 OF_BLOCKS = ("number", "key")  # of an entry, which a table leaves out
-REASONS, NOT_OK = ("why", "refused"), ("runs not ok",)  # columns of tables as CSV
 NONE = {"cpu_s": 0.0, "numbers": None}  # of a row that is refused
 
 
@@ -96,14 +95,15 @@ def last_words(path: str | Path) -> str:
 
     With the first reason; and how many rows of a design have runs that ended otherwise than ok.
     """
-    rows = pd.read_csv(path, dtype={"row": str}).reindex(columns=[*REASONS, "row", "runs", *NOT_OK])
-    why = rows[REASONS[0]].where(rows["runs"] == 0).combine_first(rows[REASONS[1]])
+    columns = ["row", "refused", "runs", "why", "runs not ok"]  # as far as the table has them
+    rows = pd.read_csv(path, dtype={"row": str}).reindex(columns=columns)
+    why = rows["why"].where(rows["runs"] == 0).combine_first(rows["refused"])
     refused = rows.assign(why=why)[why.notna()]
     said = [f"{len(rows)} rows"]
     if len(refused):
         row, reason = refused.iloc[0][["row", "why"]]
         said.append(f"{len(refused)} refused, the first is row {row}: {reason}")
-    bad = int((rows[NOT_OK[0]] > 0).sum())
+    bad = int((rows["runs not ok"] > 0).sum())
     return "; ".join([*said, *[f"{bad} with runs not ok"] * (bad > 0)])
 
 
