@@ -1,7 +1,8 @@
-"""``./run check SCENE``: effects of step, strips and mesh on a scene's peaks, as a table.
+"""``./run check SCENE``: second runs at the peaks of a scene, also of another mesh, as a table.
 
-At each reported peak of its sweep the run is repeated with half the step, twice the strips,
-twice the patches and strips, and on the model of a mesh finer by the square root of two.
+At each reported peak of its sweep the run is repeated with all gaps changed by 1e-10, half and a
+quarter of the step, twice the rods, twice the strips, on a model with fewer patches and modes and
+on one with twice the patches and strips, and on that of a mesh finer by the square root of two.
 """
 
 import sys
@@ -24,9 +25,10 @@ from geometry.base import (
 )
 from geometry.blade import RPM_PER_HZ, Blade
 from geometry.elsewhere import read_blade
+from rom.coarser import coarser
 from rom.model import Rom
 from simulate.errors.neighbour import Neighbour
-from simulate.errors.neighbours import ITSELF
+from simulate.errors.neighbours import HALF, ITSELF, QUARTER, TWIN
 from simulate.errors.observables import Numbers
 from simulate.marching import check_scene
 from simulate.scene import Scene
@@ -49,13 +51,16 @@ def twice_the_strips(scene: Scene) -> Scene:
 
 
 CHANGES = (
+    TWIN,
+    HALF,
+    QUARTER,
     Neighbour(
-        "half the step, twice the rods",
+        "twice the rods",
         scene=lambda scene: scene.but(liner__rods_per_round=2 * scene.liner.rods_per_round + 1),
-        steps=2,
-        cost=4.0,
+        cost=2.0,
     ),
     Neighbour("twice the strips", scene=twice_the_strips, cost=2.0),
+    Neighbour("fewer patches and modes", rom=lambda rom: coarser(rom)[0]),
     # a strip's middle meets every other patch where strips do not go with them
     Neighbour(
         "twice the patches and strips",

@@ -19,7 +19,7 @@ from pydantic import BaseModel
 from geometry.base import UserError, command, read_json, write_whole
 from geometry.blade import Blade
 from geometry.elsewhere import MatricesElsewhere
-from simulate.scene import Scene
+from simulate.scene import Scene, verify
 from simulate.sweeps.result_types import numbers_of
 from workflow.markdown import change, table, two_digits
 from workflow.paper import conclusions
@@ -260,7 +260,13 @@ def _key_rows(name: str, key: Schema, models: Schema) -> list[KeyRow]:
             if len(nested) == 1:
                 return _rows(nested[0], models, below)
             return _branch_rows(nested, models, below)
-    return [(name, key["description"], _allowed(values + items), _default(key))]
+    below = [
+        row
+        for value in values
+        if "properties" in value and any("enum" in other for other in values)
+        for row in _rows(value, models, f"{name}.")
+    ]
+    return [(name, key["description"], _allowed(values + items), _default(key)), *below]
 
 
 def _values(schema: Schema, models: Schema) -> list[Schema]:
@@ -301,14 +307,14 @@ def _choices(names: Iterable[str]) -> str:
 
 def _allowed(values: list[Schema]) -> str:
     """Choices, keys or bounds of a value and of its items."""
-    plain = "list" if any(value.get("type") == "array" for value in values) else "number"
-    for value in values:
-        if "properties" in value:
-            return f"{plain}, or {_choices(value['properties'])}"
     choices = [
         *(name for value in values for name in value.get("enum", [])),
         *(value["const"] for value in values if "const" in value),
     ]
+    plain = "list" if any(value.get("type") == "array" for value in values) else "number"
+    for value in values:
+        if "properties" in value:
+            return f"{_choices(choices) or plain}, or {_choices(value['properties'])}"
     bounds = [
         f"{sign} {value[bound]}"
         for value in values
@@ -321,7 +327,9 @@ def _allowed(values: list[Schema]) -> str:
 def _default(key: Schema) -> str:
     if "default" not in key:
         return REQUIRED
-    return "" if key["default"] is None else f"`{key['default']}`"
+    default = key["default"]
+    shown = verify.shown(default) if isinstance(default, dict) else default
+    return "" if default is None else f"`{shown}`"
 
 
 @command

@@ -1,5 +1,6 @@
 """Settings: YAML files of users, checked against pydantic models before anything runs."""
 
+import warnings
 from collections.abc import Callable, Iterator, Sequence
 from difflib import get_close_matches
 from pathlib import Path
@@ -66,7 +67,10 @@ class Settings(BaseModel):
             for each fault. A fault of its base as well is reported once, for the base.
         """
         layers = read_layers(path)
-        settings, faults = _checked(cls, layers[0].values)
+        with warnings.catch_warnings(record=True) as told:
+            settings, faults = _checked(cls, layers[0].values)
+        for each in told:  # with the file
+            warnings.warn(f"{path}: {each.message}", each.category, stacklevel=2)
         if faults:
             raise SettingsError(*_with_files(cls, layers, faults))
         return settings

@@ -21,8 +21,8 @@ these.
 On stiff liners long steps agree before they resolve the fast modes that contact excites: changes
 fall first, then grow. So an eighth of the step confirms what a quarter has found where the quarter
 is within its bound and the run is not, where the change to it is larger than that before, and with
-`halving`. Where the change is larger again, the bounds are of one that goes on so. Where the eighth
-is within its bound and the run is not, it is the result.
+`verify: every`. Where the change is larger again, the bounds are of one that goes on so. Where the
+eighth is within its bound and the run is not, it is the result.
 
 A contact shorter than a step may be seen, or missed, by both runs alike, since they share every
 second instant. Its steps then are as many in both, though the time in contact should be the same:
@@ -78,7 +78,7 @@ def one_rod_more(scene: Scene, samples: int | None = None) -> Scene:
 
 
 ITSELF = Neighbour("as it is")
-TWIN = Neighbour("a twin", setup=shifted)
+TWIN = Neighbour("a twin (all gaps changed by 1e-10)", setup=shifted)
 HALF = Neighbour("half the step", one_rod_more, steps=2, cost=2.0)
 QUARTER = Neighbour("a quarter of the step", steps=4, cost=4.0)
 EIGHTH = Neighbour("an eighth of the step", steps=8, cost=8.0)
@@ -100,9 +100,9 @@ def judged(run: Run, accurate: bool = True, check: bool = False) -> Run:
     """March the second runs that the scene asks for beside a run, and decide on its status.
 
     ``accurate``: whether the errors that it has are within its ``accuracy``. ``check``: bound the
-    error of its step, by twice the step where that is enough, else as with `halving`, and by a
-    twin. Where only an eighth of the step converges, its run is the result. A run without second
-    runs and errors may lose less energy (``resolution``).
+    error of its step, by twice the step where that is enough, else as with `verify: every`. Where
+    only an eighth of the step converges, its run is the result. A run without second runs and
+    errors may lose less energy (``resolution``).
     """
     marched = [
         run := replace(run, outcome=replace(run.outcome, status=status.judge(run.outcome.facts)))
@@ -135,7 +135,7 @@ def _from_second_runs(
     ended = run.outcome.status in TO_THE_END
     # two steps that agree are no proof
     long = run.outcome.contact_share > 0 and footprints_passed(run.setup) > 1
-    doubtful = ended and (run.scene.halving or (check and long))
+    doubtful = ended and (run.scene.halves or (check and long))
     if check and ended and not doubtful:
         errors, bound = from_twice(run, march_second)
         doubtful = bound > NEAR
@@ -143,7 +143,7 @@ def _from_second_runs(
         half = march_second(HALF)
         errors, bound = _against(run, half, OF_HALF)
         doubtful = bound > AGREE or long
-    if not departures and (run.scene.twin or (check and doubtful)):
+    if not departures and (run.scene.twins or (check and doubtful)):
         departures = differences(run, march_second(TWIN))
     result, departure = run, max(departures.values(), default=0.0)
     if doubtful and not departure > SENSITIVE_FROM:  # nan of runs without a result
@@ -178,7 +178,7 @@ def _in_doubt(
     first, quarter = differences(run, half, neither=inf), march_second(QUARTER)
     found = result, _, bound = from_shorter(run, half, quarter)
     if bound > STATED or not (
-        run.scene.halving
+        run.scene.halves
         or result is quarter
         or from_shorter(run, half, quarter, first)[-1] > STATED  # changes grow
     ):

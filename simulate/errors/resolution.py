@@ -33,7 +33,7 @@ EDGE = 0.15  # and lasts while above this: a rough casing crosses one level ofte
 WINDOW = 12.0  # least steps of a window: errors are about a tenth there
 PERIOD = 100.0  # least steps of a period of the first mode where the tip can touch,
 HALVED = 10.0  # and where half the step is run, too
-FOOTPRINTS = 2.0  # most that the tip passes in a step without `halving`
+FOOTPRINTS = 2.0  # most that the tip passes in a step without `verify: every`
 # of the casing's work: above, a run that stands alone is `inaccurate`; the predicted force of
 # central differences loses some also where they are accurate
 LOST = {"central-difference": 0.06, "piecewise-exact": 0.015}
@@ -43,8 +43,8 @@ POWER, LEAST_LOST = 0.25, 1e-8  # of the share lost, in the risk; smaller shares
 def check_resolution(scene: Scene, setup: Setup) -> None:
     """Refuse a step too long for the shortest contact of the still blade, or for its first mode.
 
-    And one in which the tip passes more than two footprints. With `halving` second runs tell the
-    latter two, but for very long steps.
+    And one in which the tip passes more than two footprints. With `verify: every` second runs tell
+    the latter two, but for very long steps.
 
     Raises
     ------
@@ -59,12 +59,12 @@ def check_resolution(scene: Scene, setup: Setup) -> None:
     window = shortest_window(setup, deepest)
     times, what = max(
         (
-            (HALVED if scene.halving else PERIOD) / period,
+            (HALVED if scene.halves else PERIOD) / period,
             f"the first mode has {period:.3g} steps in a period",
         ),
         (WINDOW / window, f"the closest part of the casing is passed in {window:.3g} steps"),
         (
-            0.0 if scene.halving else footprints / FOOTPRINTS,
+            0.0 if scene.halves else footprints / FOOTPRINTS,
             f"the tip passes {footprints:.3g} of its footprints in a step",
         ),
     )

@@ -28,14 +28,17 @@ from simulate.scene.scene import (
     fault_of_blade,
 )
 from simulate.scene.speeds import OF_RPM, OVER_F1, Speeds
+from simulate.scene.verify import EVERY, PEAKS
 
 __all__ = [
     "DYING_OUT",
+    "EVERY",
     "GROWING",
     "LEADING",
     "OF_LAST_ROUNDS",
     "OF_RPM",
     "OVER_F1",
+    "PEAKS",
     "STEADY",
     "STRIPS",
     "TOO_SHORT",

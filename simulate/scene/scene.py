@@ -21,6 +21,7 @@ from simulate.scene.casing import MOST_ROUNDS, Casing, Clearance, Gaps
 from simulate.scene.liner import Contact, Liner
 from simulate.scene.record import Peaks, Record
 from simulate.scene.speeds import Positive, Speeds
+from simulate.scene.verify import EVERY, PEAKS, Share, Verify, in_place_of_old
 
 StepsPerRound = Annotated[int, Field(ge=64, le=10**9)]
 NO_SCALING = {"mass_scaling_hz": "take it out: `piecewise-exact` is stable for any step"}
@@ -87,6 +88,10 @@ NOT_ESTIMATED = (
     "accuracy, whose errors are not estimated with it (give integrator, liner.rods_per_round and "
     "liner.strips instead)"
 )
+RODS_OF_START = "start: a run with half the step has other rods than the worn liner there"
+GOES_ON = (
+    "speeds.in_turn: a run with half the step has other rods than the run that it goes on from"
+)
 OF_LAST_ROUNDS = ("history", "states_rounds", "motion", "gauges")  # of the record, over time
 EXCLUDED = [  # keys of which a scene has one at most, named by the first
     ("start", "accuracy"),
@@ -97,9 +102,7 @@ EXCLUDED = [  # keys of which a scene has one at most, named by the first
     *product(("speeds.in_turn", "start.speed_over_f1"), (AT_REST, TRAVELLING)),
     ("contact.friction", NOT_ESTIMATED),
     ("until", "accuracy"),
-    ("halving", "accuracy"),  # which bounds the error of the step by other runs
-    ("halving", "start"),  # the second run needs the same start
-    ("halving", "speeds.in_turn"),
+    *product(("verify",), (RODS_OF_START, GOES_ON)),
 ]
 
 
@@ -143,23 +146,10 @@ class Scene(SettingsFile):
     start: Start | None = Field(
         default=None, description="Start from the end of another scene; by default at rest"
     )
-    twin: bool = Field(
-        default=False,
-        description="Compute each speed twice, with gaps that differ by 1e-10, to show which "
-        "outputs can be predicted",
-    )
-    check: float = Field(
-        default=0.1,
-        ge=0,
-        le=1,
-        description="Share of the steps that second runs may take which bound the error of the "
-        "step where the risk is highest; 0: none",
-    )
-    halving: bool = Field(
-        default=False,
-        description="Check each speed, with half the step, in doubt with a quarter and an eighth; "
-        "where that converges alone it is the result, else a run with a bound above 10 % is "
-        "`inaccurate`",
+    verify: Verify = Field(
+        default=Share(),
+        description="Second runs, which tell what a run is worth: at risky speeds, at the `peaks` "
+        "alone, or at `every` speed",
     )
     design: str | None = Field(
         default=None,
@@ -167,6 +157,11 @@ class Scene(SettingsFile):
         description="Many runs: a CSV file beside the scene file, with keys as columns and a scene "
         "with other values in each row; or a YAML file, a Sobol design",
     )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _one_key_for_second_runs(cls, values: Any) -> Any:
+        return in_place_of_old(values) if isinstance(values, dict) else values
 
     def but(self, **changes: Any) -> Self:
         """The scene with other values, checked again; a mapping changes the keys it names.
@@ -209,9 +204,26 @@ class Scene(SettingsFile):
 
     @property
     def checked_share(self) -> float:
-        """``check``; 0 with second runs at each speed, and where these need the same start."""
-        others = self.accuracy or self.halving or self.start or self.speeds.in_turn
-        return self.check if self.record.observables and not others else 0.0
+        """Share of the steps for checks; 0 with others, and where these need the same start."""
+        share = self.verify.share if isinstance(self.verify, Share) else 0.0
+        others = self.accuracy or self.start or self.speeds.in_turn
+        return share if self.record.observables and not others else 0.0
+
+    @property
+    def twins(self) -> bool:
+        """Whether each speed has a twin, which tells whether its motion can be predicted."""
+        return self.verify.predictable if isinstance(self.verify, Share) else self.verify == EVERY
+
+    @property
+    def halves(self) -> bool:
+        """Whether half the step bounds its error at each speed; ``accuracy`` does so itself."""
+        return self.verify == EVERY and self.accuracy is None
+
+    @property
+    def bounds_the_step(self) -> bool:
+        """Whether second runs with other steps bound the error of the step of some runs."""
+        at_peaks = self.verify == PEAKS and self.accuracy is None
+        return self.checked_share > 0 or self.halves or at_peaks
 
     @property
     def directions(self) -> str:
@@ -297,8 +309,11 @@ class Scene(SettingsFile):
         said = "applies to recorded outputs: set record.wear or another of record"
         require(
             *(
-                (self.record.observables or not getattr(self, key), Fault(said, key))
-                for key in ("accuracy", "twin", "halving")
+                (self.record.observables or not asked, Fault(said, key))
+                for key, asked in (
+                    ("accuracy", self.accuracy),
+                    ("verify", self.twins or self.verify == PEAKS),
+                )
             ),
             kind=SettingsError,
         )
@@ -337,7 +352,9 @@ class Scene(SettingsFile):
             "until": self.until,
             "accuracy": self.accuracy,
             NOT_ESTIMATED: self.accuracy,
-            "halving": self.halving,
+            "verify": not isinstance(self.verify, Share),
+            RODS_OF_START: start,
+            GOES_ON: self.speeds.in_turn,
             "design": self.design,
             "peaks": self.peaks,
             AT_REST: self.gaps.vary,

@@ -14,7 +14,7 @@ from simulate.sweeps.dataset import final_state_of, require_rom, scene_of
 
 SAME_SPEED = 1e-9  # relative
 # Keys in which a run that goes on may differ from the one before
-MAY_DIFFER = {"speeds", "rounds", "until", "record", "peaks", "twin", "check", "start"}
+MAY_DIFFER = {"speeds", "rounds", "until", "record", "peaks", "verify", "start"}
 OF_LINER = ("strips", "rods_per_round", "thickness_mm")  # keys that a worn liner must have alike
 
 type Before = Callable[[float], FinalState | Worn | None]  # start of the run at a speed, rad/s

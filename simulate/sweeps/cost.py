@@ -87,7 +87,7 @@ def cost(scene: Scene, rom: Rom, speeds: int | None = None) -> Cost:
         few = scene.but(liner__rods_per_round=min(scene.liner.nu, FEW_RODS))
         steps = min(prepare(few, rom, float(np.median(Omega))).steps, MAX_STEPS)
     # neither checks nor shorter steps than half are counted, which may follow half the step
-    second_runs = [TWIN] * scene.twin + [HALF] * scene.halving
+    second_runs = [TWIN] * scene.twins + [HALF] * scene.halves
     runs = speeds * (1 + sum(run.cost for run in second_runs))
     all_steps = runs * scene.rounds * steps
     return Cost(

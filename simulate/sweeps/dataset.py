@@ -403,7 +403,7 @@ def entry(
 def of_run(run: Run) -> xr.Dataset:
     """One run as a dataset with a speed axis of length one."""
     scene, values = run.scene, _of_march(run) | _energies(run) | _asked_for(run)
-    checks = scene.checked_share or scene.halving
+    checks = scene.bounds_the_step
     unknown = dict.fromkeys(scene.record.observables, np.nan) if checks else {}
     for name, by_name in {"departure": run.departures, "error": run.errors}.items():
         if by_observable := by_name or unknown:

@@ -195,8 +195,7 @@ def to_march(runs: xr.Dataset, stress: Mapping[str, Any] | None = None) -> Scene
         if (stress["fatigue"] or {}).get("slope_k"):
             unused["states_rounds"] = scene.rounds
     return scene.but(
-        twin=False,
-        halving=False,
+        verify={"share": 0.0, "predictable": False},
         peaks=None,
         record=unused | {"contact_force": True, "end": False},
     )

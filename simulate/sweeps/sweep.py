@@ -4,6 +4,7 @@ Runs at given speeds (``over_speeds``) do not depend on how peaks are found.
 """
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from math import inf
 from typing import Any
@@ -15,10 +16,11 @@ from numpy.typing import NDArray
 from geometry.base import Say, known, silent
 from rom.model import Rom
 from simulate.errors.accuracy import Choice
-from simulate.scene import Peaks, Scene
+from simulate.scene import EVERY, PEAKS, Peaks, Scene
 from simulate.sweeps.dataset import OF_MOTION, checks, merge
 from simulate.sweeps.over_speeds import as_sweep, at_speeds, tell_before
 from simulate.sweeps.peak import Responses, along_order, rise
+from simulate.sweeps.peak_results import asked
 from simulate.sweeps.unusual import doubts_of_runs, warn_of
 
 
@@ -71,9 +73,28 @@ def close_in(
         report(f"peaks.most: {len(added)} speeds are added: more may raise peaks")
     if added:
         runs = merge([runs, as_sweep(added, report, choice)])
+    if scene.verify == PEAKS:
+        runs = verified(scene, rom, runs, report, choice)
     report(checks(runs))
     warn_of(doubts_of_runs(runs).values())
     return runs
+
+
+def verified(
+    scene: Scene, rom: Rom, runs: xr.Dataset, report: Say = silent, choice: Choice | None = None
+) -> xr.Dataset:
+    """``runs``, those at the peaks with all second runs, as `verify: every` has them.
+
+    Without a peak that where the sweep responds most.
+    """
+    at_peaks = sorted({peak.index for peak in asked(runs, rom)})
+    speeds = runs["speed"].values[at_peaks]
+    again = at_speeds(scene.but(verify=EVERY), rom, speeds, report, choice)
+    if not again:
+        return runs
+    judged = as_sweep([replace(run, scene=scene) for run in again], choice=choice, check=False)
+    others = np.delete(np.arange(len(runs["speed"])), at_peaks)
+    return merge([runs.isel(speed_over_f1=others), judged])
 
 
 def further(

@@ -28,16 +28,16 @@ KEPT = Path(__file__).with_suffix(".csv")
 HEADS = ("date", "command", "before", "after", "CPU s before", "CPU s after", "ratio")
 TURNS = 7  # of one state they differ by half
 SCENES = {  # of the first coating at 40 speeds, by the words in the table
-    "sweep": "",
-    "sweep without checks": "check: 0",
+    "sweep": "verify: {predictable: false}",
+    "sweep without checks": "verify: {share: 0, predictable: false}",
     "sweep with central differences": "integrator: {scheme: central-difference, "
-    "fraction_of_limit: 0.8}\nrounds: 6\nrecord: {spectrum_rounds: 4}\ncheck: 0",
+    "fraction_of_limit: 0.8}\nrounds: 6\nrecord: {spectrum_rounds: 4}\n"
+    "verify: {share: 0, predictable: false}",
 }
 SCENE = """base: paper-e1
 blade: reference
 speeds: {{over_f1: {{first: 0.12, last: 0.38, count: 40}}}}
 peaks: null
-twin: false
 {}
 """
 MODEL = "results/reference/rom-r.nc"

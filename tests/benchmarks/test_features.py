@@ -79,7 +79,7 @@ def test_the_cost_of_each_feature(scheme, models, capsys):
     runs = {"bare": run_of(bare)}
     asked = [name for name in VARIANTS if name != "friction" or scheme == "piecewise-exact"]
     runs |= {name: run_of(case_of(scheme, **VARIANTS[name])) for name in asked}
-    twins = Case(bare.but(twin=True), models["r"], setup)
+    twins = Case(bare.but(verify={"predictable": True}), models["r"], setup)
     runs["twin"] = lambda: judged(twins.march())
     least = best(runs)
     outcome = march(bare, setup)

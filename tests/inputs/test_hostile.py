@@ -45,7 +45,7 @@ SCENE = """
 blade: coarse
 speeds: {over_f1: [0.3]}
 rounds: 2
-check: 0
+verify: {share: 0}
 integrator: {scheme: piecewise-exact, steps_per_round: 640}
 damping_ratio: 0.005
 clearance: {leading_edge_over_span: 1.5e-4, trailing_edge_over_span: 4.3e-4}

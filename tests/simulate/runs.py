@@ -38,7 +38,7 @@ def swept(case, rom):
     return as_sweep(at_speeds(case, rom, case.speeds.omega(rom.f1)))
 
 
-def of_paper(rom, over_f1, rounds, twin=False, **more):
+def of_paper(rom, over_f1, rounds, predictable=False, **more):
     """Runs of the coarse blade over speeds, of the paper's E = 10; ``more``: of the record."""
     record = {"spectrum_rounds": 4, "samples_per_round": 256, "motion": 2} | more
     case = Scene.load(ROOT / "workflow/scenes/paper-e10.yaml").but(
@@ -48,7 +48,7 @@ def of_paper(rom, over_f1, rounds, twin=False, **more):
         peaks=None,
         record=record,
         liner__strips=8,
-        twin=twin,
+        verify={"predictable": predictable},
         **RUBBING,
     )
     return as_sweep(at_speeds(case, rom, rad_s(rom, np.array(over_f1))))

@@ -118,8 +118,12 @@ SPEEDS = {"over_f1": {"first": 0.26, "last": 0.34, "count": 12}}
 def swept(coarse_rom):
     """A sweep of twelve speeds with the default share of checks, its lines, and that without."""
     lines = []
-    case = scene(integrator=EXACT, speeds=SPEEDS, check=0.1)
-    return sweep(case, coarse_rom, lines.append), lines, sweep(case.but(check=0), coarse_rom)
+    case = scene(integrator=EXACT, speeds=SPEEDS, verify={"share": 0.1})
+    return (
+        sweep(case, coarse_rom, lines.append),
+        lines,
+        sweep(case.but(verify={"share": 0}), coarse_rom),
+    )
 
 
 def test_a_sweep_checks_two_of_twelve_speeds_and_says_so(swept, coarse_rom):
@@ -148,7 +152,7 @@ def test_a_sweep_whose_step_is_too_long_is_mended(coarse_rom):
     stiff = {"kind": "plastic", "E": 100.0, "K": 45.0, "sigma_Y": 1e-8, "unit_MPa": 2000}
     case = scene(integrator=EXACT, speeds=SPEEDS, rounds=3, liner__law=stiff)
     case = case.but(liner__rods_per_round=2039)
-    plain, runs = (sweep(case.but(check=share), coarse_rom) for share in (0, 0.1))
+    plain, runs = (sweep(case.but(verify={"share": share}), coarse_rom) for share in (0, 0.1))
     fine = sweep(case.but(integrator=of_steps(16 * 1280)), coarse_rom)
     assert (plain.status == "inaccurate").sum() >= 10 and (runs.status == "ok").sum() >= 8
     mended = np.flatnonzero(runs.steps_per_round > 1280)
@@ -165,13 +169,14 @@ def test_a_sweep_whose_step_is_too_long_is_mended(coarse_rom):
     ("changes", "share"),
     [
         ({}, 0.1),
-        ({"check": 0.3}, 0.3),
-        ({"halving": True}, 0.0),
+        ({"verify": {"share": 0.3}}, 0.3),
+        ({"verify": "peaks"}, 0.0),
+        ({"verify": "every"}, 0.0),
         ({"start": {"scene": "before"}}, 0.0),
         ({"speeds": {"over_f1": [0.3], "in_turn": True}}, 0.0),
         ({"record": {"samples_per_round": 64, "wear": False}}, 0.0),
     ],
 )
 def test_the_share_is_none_where_second_runs_cannot_be_compared(changes, share):
-    case = scene(**{"integrator": EXACT, "check": 0.1} | changes)
+    case = scene(**{"integrator": EXACT, "verify": {"share": 0.1}} | changes)
     assert case.checked_share == share

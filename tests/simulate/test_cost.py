@@ -16,15 +16,15 @@ class Stopped(Exception):  # noqa: N818
     """Raised by a report to stop before the march."""
 
 
-@pytest.mark.parametrize(("twin", "halving", "times"), [(1, 0, 2), (0, 1, 3), (1, 1, 4)])
-def test_steps_twins_and_half_steps_are_counted(coarse_rom, twin, halving, times):
+@pytest.mark.parametrize(("verify", "times"), [({"predictable": True}, 2), ("every", 4)])
+def test_steps_twins_and_half_steps_are_counted(coarse_rom, verify, times):
     speeds = {"over_f1": {"first": 0.2, "last": 0.38, "count": 10}}
     case = scene(integrator=of_steps(4096), speeds=speeds, rounds=20)
     found = cost(case, coarse_rom)
     assert (found.speeds, found.steps, found.all_steps) == (10, 4096, 10 * 20 * 4096)
     (line,) = found.lines(memory=16e9)
     assert line.startswith("10 speeds of 20 revolutions of 4096 steps: 8.2e+05")
-    with_others = cost(case.but(twin=bool(twin), halving=bool(halving)), coarse_rom)
+    with_others = cost(case.but(verify=verify), coarse_rom)
     assert with_others.all_steps == times * found.all_steps
     assert with_others.seconds == pytest.approx(times * found.seconds)
 

@@ -219,7 +219,7 @@ def test_a_longer_status_of_another_block_is_kept_whole(coarse_rom, tmp_path):
 def test_blocks_merge_into_the_sweep(coarse_rom, tmp_path):
     """With what twins tell of each run."""
     speeds = {"over_f1": {"first": 0.3, "last": 0.38, "count": 3}}
-    case = scene(rounds=1, twin=True, speeds=speeds)
+    case = scene(rounds=1, verify__predictable=True, speeds=speeds)
     whole = swept(case, coarse_rom)
     for block in range(2):
         speeds = case.speeds.omega(coarse_rom.f1)[block::2]

@@ -120,7 +120,9 @@ def test_runs_of_other_models_and_at_peaks_have_no_gauges(kept, rom):
     assert coarse.outcome.gauges.size == 0
     assert np.isfinite(run.neighbour(QUARTER).march().outcome.gauges).all()
     assert np.isfinite(run.outcome.gauges).all()
-    twice = swept(case(twin=True, integrator=EXACT, record={"states_rounds": None}), rom)
+    twice = swept(
+        case(verify__predictable=True, integrator=EXACT, record={"states_rounds": None}), rom
+    )
     assert set(twice["status"].values) <= {"ok", "sensitive"}
     assert coarser(rom)[0].gauges == ()
     assert to_march(kept).record.gauges is None

@@ -159,7 +159,9 @@ def test_only_what_is_recorded_is_compared():
     run = made(scene(record=lean).record, outcome())
     assert [*differences(run, run)] == [*observables(run)] == ["history"]
     nothing = {"samples_per_round": 64, "wear": False}
-    assert refused(SettingsError, scene, twin=True, record=nothing).key == "twin"
+    assert (
+        refused(SettingsError, scene, verify={"predictable": True}, record=nothing).key == "verify"
+    )
 
 
 def test_a_twin_differs_in_its_gaps_alone(coarse_rom):
@@ -177,7 +179,7 @@ def test_a_twin_differs_in_its_gaps_alone(coarse_rom):
 @pytest.fixture(scope="module")
 def hard(coarse_rom):
     """A sweep on strips that are hard, and the scene, which asks for twins."""
-    case = scene(**HARD, integrator__fraction_of_limit=0.1, twin=True, record=RECORD)
+    case = scene(**HARD, integrator__fraction_of_limit=0.1, verify__predictable=True, record=RECORD)
     return case, swept(case, coarse_rom)
 
 
@@ -193,7 +195,7 @@ def test_hard_contact_is_sensitive_whatever_the_step(coarse_rom, hard):
     assert largest_state(runs)[1] > 0
     coarser = scene(**HARD, record=RECORD, integrator__fraction_of_limit=0.4)
     setup = set_up(coarser, coarse_rom, 0.335)
-    coarser = coarser.but(twin=True)
+    coarser = coarser.but(verify={"predictable": True})
     found = judged(Case(coarser, coarse_rom, setup).march())
     assert found.outcome.status == "sensitive" and found.departures["wear"] > 3 * SENSITIVE_FROM
 
@@ -201,7 +203,9 @@ def test_hard_contact_is_sensitive_whatever_the_step(coarse_rom, hard):
 def test_a_calm_run_is_predictable(coarse_rom):
     """The change by 1e-10 of the gap becomes 4e-10 at most (measured)."""
     speeds = {"over_f1": [0.29, 0.3]}
-    calm = swept(scene(twin=True, rounds=3, record=RECORD, speeds=speeds), coarse_rom)
+    calm = swept(
+        scene(verify__predictable=True, rounds=3, record=RECORD, speeds=speeds), coarse_rom
+    )
     assert list(calm.status.values) == ["ok", "ok"]
     assert [*calm.observable.values] == ALL
     assert calm.departure.min() > 1e-12 and calm.departure.max() < 1e-8
@@ -210,7 +214,7 @@ def test_a_calm_run_is_predictable(coarse_rom):
 def test_a_twin_changes_nothing_but_the_status(coarse_rom, hard):
     case, runs = hard
     alone = as_sweep(
-        at_speeds(case.model_copy(update={"twin": False}), coarse_rom, runs.speed.values)
+        at_speeds(case.but(verify={"predictable": False}), coarse_rom, runs.speed.values)
     )
     assert "departure" not in alone and "observable" not in alone.coords
     assert set(alone.status.values) == {"ok"}
@@ -315,7 +319,7 @@ JUDGED = {  # runs with h, h/2 and, where one is needed, h/4, h/8; the status, a
     "chatter": ([outcome(), outcome(contact_share=0.2)], "ok", 0, CENTRAL),
     "no contact in one": ([UNTOUCHED, SHORT, UNTOUCHED], "inaccurate", 0),
     "no contact in both": ([UNTOUCHED, UNTOUCHED], "no-contact", 0),
-    "sensitive": ([outcome(), outcome(1 / (1 - 0.055 / 3))], "sensitive", 0.055, {"twin": True}),
+    "sensitive": ([outcome(), outcome(1 / (1 - 0.055 / 3))], "sensitive", 0.055),
     "diverged": ([FAILED], "diverged", None),  # nothing to compare
 }
 CONVERGED = {  # runs with h to h/8, of which the last is the result; its bound
@@ -348,20 +352,18 @@ def test_a_run_is_judged_beside_half_and_in_doubt_less_of_its_step(beside, case)
     """
     runs, status, bound, *changes = JUDGED[case]
     run, others = named(runs)
-    changes = {"halving": True} | dict(*changes)
-    others |= {TWIN.name: outcome(2.0)} if changes.get("twin") else {}
-    found = beside(run, others, **changes)
+    others |= {TWIN.name: outcome(2.0) if status == "sensitive" else run}
+    found = beside(run, others, verify="every", **dict(*changes))
     assert found.outcome.status == status
     assert found.errors == pytest.approx(dict.fromkeys(ALL if runs[1:] else [], bound), rel=1e-9)
     assert found.outcome.reason == ("why" if status == "no-contact" else "")
 
 
-@pytest.mark.parametrize("twin", [False, True])
 @pytest.mark.parametrize("case", CONVERGED)
-def test_the_result_is_that_of_the_shortest_step_where_it_converges_alone(beside, case, twin):
+def test_the_result_is_that_of_the_shortest_step_where_it_converges_alone(beside, case):
     runs, bound = CONVERGED[case]
     run, others = named(runs)
-    found = beside(run, others | ({TWIN.name: run} if twin else {}), halving=True, twin=twin)
+    found = beside(run, others | {TWIN.name: run}, verify="every")
     assert found.outcome.status == "ok" and found.outcome.u_r is runs[3].u_r
     assert found.errors == pytest.approx(dict.fromkeys(ALL, bound), rel=1e-9, abs=1e-12)
 
@@ -408,12 +410,11 @@ def test_a_check_takes_shorter_steps_and_a_twin_only_in_doubt(beside, case):
     np.testing.assert_array_equal(found.outcome.wear, result)
 
 
-@pytest.mark.parametrize("asked", [{"check": True}, {"halving": True}])
+@pytest.mark.parametrize("asked", [{"check": True}, {"verify": "every"}])
 def test_steps_that_pass_more_than_a_footprint_are_no_proof_though_two_agree(beside, asked):
     """1.2 footprints: neither twice nor half the step decides, but a quarter of it."""
     of = {"integrator": of_steps(576)}
-    others = {HALF.name: outcome(), QUARTER.name: outcome(1.2)}
-    others |= {TWIN.name: outcome()} if "check" in asked else {}
+    others = {HALF.name: outcome(), QUARTER.name: outcome(1.2), TWIN.name: outcome()}
     found = beside(outcome(), others, **of, **asked)
     assert footprints_passed(found.setup) == pytest.approx(1.23, abs=0.01)
     assert found.outcome.status == "inaccurate"
@@ -423,7 +424,7 @@ def test_a_scene_asks_for_it_and_the_sweep_has_the_errors(coarse_rom):
     """Against a run eight times finer the error is within its bound, and not a tenth of it."""
     case = exact(liner__rods_per_round=4096)  # one more changes less than the step
     alone = sweep(case, coarse_rom)
-    runs = sweep(case.but(halving=True), coarse_rom)
+    runs = sweep(case.but(verify="every"), coarse_rom)
     assert runs.status.item() == "ok" and "error" not in alone
     assert runs.observable.values.tolist() == ALL
     assert "twice to an eighth of the step" in runs.error.attrs["long_name"]
@@ -438,7 +439,7 @@ def test_a_scene_asks_for_it_and_the_sweep_has_the_errors(coarse_rom):
 
 
 def test_twin_and_half_step_go_together(coarse_rom):
-    wear = sweep(exact(halving=True, twin=True), coarse_rom).sel(observable="wear")
+    wear = sweep(exact(verify="every"), coarse_rom).sel(observable="wear")
     assert np.isfinite(wear.error).all() and np.isfinite(wear.departure).all()
 
 
@@ -448,13 +449,7 @@ def test_twin_and_half_step_go_together(coarse_rom):
         {"record": {"samples_per_round": 64, "wear": False}},
         {"start": {"scene": "before"}},
         {"speeds": {"over_f1": [0.3], "in_turn": True}},
-        {
-            "accuracy": 0.01,
-            "integrator": None,
-            "liner__rods_per_round": None,
-            "liner__strips": None,
-        },
     ],
 )
 def test_it_is_refused_where_there_is_nothing_to_halve(changes):
-    assert refused(SettingsError, scene, halving=True, **changes).key == "halving"
+    assert refused(SettingsError, scene, verify="every", **changes).key == "verify"

@@ -92,7 +92,7 @@ HARD = {
     "liner__law__unit_MPa": 10000000,
     "liner__rods_per_round": 2039,
     "speeds": {"over_f1": [0.35]},  # departs by 3 % at least, whatever the last digits of the model
-    "twin": True,  # heard before the energy that these steps lose
+    "verify__predictable": True,  # heard before the energy that these steps lose
 }
 SCENES = {  # scene, errors of the model, the word, and what the uncertainty of the amplitude is
     "far from the fold": (FAR, CALM, ONE_MOTION, "model", (0.0, np.inf)),

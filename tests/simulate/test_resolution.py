@@ -79,11 +79,11 @@ def test_a_rough_casing_is_passed_in_its_wide_windows(coarse_rom):
 @pytest.mark.parametrize(
     ("changes", "over_f1", "what"),
     [
-        (bumps(12) | {"halving": True}, 0.3, "the closest part of the casing is passed in"),
+        (bumps(12) | {"verify": "every"}, 0.3, "the closest part of the casing is passed in"),
         ({}, SLOW, "the first mode has"),
         ({"liner__footprint_mm": 2.5, **bumps(1)}, 0.3, "the tip passes 2.21 of"),
         # with half a step a period of the first mode still has ten
-        (bumps(1) | {"halving": True}, 0.15, "the first mode has 9"),
+        (bumps(1) | {"verify": "every"}, 0.15, "the first mode has 9"),
     ],
 )
 def test_a_step_too_long_is_refused_with_the_least_steps(coarse_rom, changes, over_f1, what):
@@ -112,9 +112,9 @@ def test_what_is_refused_would_be_wrong(coarse_rom):
     ("steps", "changes", "over_f1"),
     [
         (64, bumps(12, 0.9), SLOW),  # out of reach
-        (640, {"halving": True}, SLOW),  # which replaces the look at the first mode,
-        (640, {"halving": True, "liner__footprint_mm": 2}, 0.3),  # and that at the footprint
-        (64, bumps(1) | {"halving": True}, 0.17),  # with ten steps in its period
+        (640, {"verify": "every"}, SLOW),  # which replaces the look at the first mode,
+        (640, {"verify": "every", "liner__footprint_mm": 2}, 0.3),  # and that at the footprint
+        (64, bumps(1) | {"verify": "every"}, 0.17),  # with ten steps in its period
     ],
 )
 def test_a_step_that_resolves_what_the_blade_meets_is_accepted(coarse_rom, steps, changes, over_f1):
@@ -152,7 +152,7 @@ def test_windows_shorter_than_the_limit_are_what_is_refused(coarse_rom, order):
     """On both sides of the limit, to a step; also where half a step looks at the first mode."""
     seen = set()
     for steps in range(64, 1280, 64):
-        case = exact(steps, halving=True, **bumps(order))
+        case = exact(steps, verify="every", **bumps(order))
         too_short = window(case, coarse_rom) < WINDOW
         with pytest.raises(SceneError) if too_short else nullcontext():
             check(case, coarse_rom)

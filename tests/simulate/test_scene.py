@@ -112,7 +112,7 @@ SCHEMES = ["piecewise-exact", "central-difference"]
         ({"integrator": None}, "", None, ["integrator", "accuracy"]),
         (WITHIN | {"accuracy": 0.5}, "accuracy", 0.5, {"le": 0.1}),
         (WITHIN | {"record": {"samples_per_round": 64, "wear": False}}, "accuracy", None, None),
-        ({"twin": "perhaps"}, "twin", "perhaps", None),
+        ({"verify": {"predictable": "perhaps"}}, "verify.predictable", "perhaps", None),
         ({"contact": {"profile": 1e-5}}, "contact.profile", 1e-05, None),
         ({"liner__law": RIGID}, "liner.law.kind", "rigid", None),
         ({"liner__worn_through": "casing"}, "liner.worn_through", "casing", None),
@@ -205,7 +205,7 @@ def test_what_the_blade_alone_does_not_allow(coarse_blade, speeds, highest):
         {"liner__worn_through": "casing", "integrator": STEPS},
         {"liner__law": {"kind": "none"}, "liner__worn_through": "casing"},  # no casing to meet
         {"contact": {"tangential": True, "profile": {"edge_drop_um": 10}}},
-        {"integrator": STEPS, "twin": True},
+        {"integrator": STEPS, "verify": {"predictable": True}},
         {"liner__law": {"kind": "elastic", "E": 1, "unit_MPa": 2000}},
     ],
 )

@@ -120,7 +120,7 @@ def test_a_run_on_a_worn_liner_starts_at_rest(coarse_rom):
 
 def test_a_twin_goes_on_from_the_same_end(coarse_rom):
     first = sweep(made(rounds=BEFORE), coarse_rom)
-    then = made(rounds=2, start={"scene": "before"}, twin=True)
+    then = made(rounds=2, start={"scene": "before"}, verify__predictable=True)
     runs = sweep(then, coarse_rom, start=first)
     assert runs.status.item() == "ok" and runs.departure.max() < 1e-8
 

@@ -120,7 +120,8 @@ def test_the_range_for_pictures_is_that_of_the_history(coarse_rom):
 def test_pictures_change_no_number_and_are_no_observable(coarse_rom):
     """With a twin: the same status and differences with and without."""
     plain, shown = (
-        states_of(coarse_rom, twin=True, **more) for more in ({}, {"record__motion": 3})
+        states_of(coarse_rom, verify__predictable=True, **more)
+        for more in ({}, {"record__motion": 3})
     )
     assert {"motion", "envelope", "strained", "strained_round"} == set(shown) - set(plain)
     for name in set(plain) - {"seconds"}:

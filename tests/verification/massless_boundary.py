@@ -196,7 +196,7 @@ usual basis.
   fast. Its free motion is exact, its force a mean over the way in the step.
 - The speed 0.38 f₁(0), at the peak, decides most: with 512 steps per revolution `piecewise-exact`
   errs there by {long} (rigid, elastic, plastic), at the other two by {elsewhere} %.
-  Energies and status of such runs are in order; with `halving` they are `inaccurate`
+  Energies and status of such runs are in order; with `verify: every` they are `inaccurate`
   ([test](verification/test_massless_study.py), on a coarser blade).
 - The error of a massless boundary ends at the inertia of the static modes: with 24 dynamic ones
   at {dynamic} at 0.38 f₁(0). More dynamic modes need shorter steps: on a rigid casing

@@ -96,7 +96,7 @@ def rub(rom: Rom, law: Mapping[str, Any], over_f1: float, **more: Any) -> Rub:
         speeds={"over_f1": [over_f1]},
         liner__law=law,
         record={"samples_per_round": SAMPLES, "spectrum_rounds": LAST, "contact_force": True},
-        twin=False,
+        verify={"predictable": False},
         peaks=None,
         **(TWO_LOBES | more),
     )

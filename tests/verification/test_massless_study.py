@@ -100,7 +100,8 @@ def test_long_steps_at_the_peak_are_found_by_checks_alone(coarse_rom, law):
     assert error(exact(of, 512), exact(of, 32768)) > 0.2
     scene = of.scene.but(integrator={"scheme": "piecewise-exact", "steps_per_round": 512})
     alone, *checked = (
-        sweep(scene.but(**of), coarse_rom) for of in ({"check": 0}, {}, {"halving": True})
+        sweep(scene.but(**of), coarse_rom)
+        for of in ({"verify": {"share": 0}}, {}, {"verify": "every"})
     )
     assert alone.status.item() == "ok"
     for found in checked:

@@ -379,7 +379,9 @@ def test_checks_take_a_tenth_of_the_steps_of_rows_run_together(coarse_rom, tmp_p
     """Of rows with a single speed the first, which touches, then every fifth."""
     rows = [f'{0.3 + row / 100},"[0.31]"' for row in range(12)]
     table = "\n".join(["liner.law.K,speeds.over_f1", *rows, ""])
-    case = design(tmp_path, table, check=0.1, integrator=of_steps(768))  # less than a footprint
+    case = design(
+        tmp_path, table, verify={"share": 0.1}, integrator=of_steps(768)
+    )  # less than a footprint
     runs, _ = made(case, coarse_rom, tmp_path)
     known = np.isfinite(runs["error"].values)
     assert known[0] and 2 <= known.sum() <= 3 and not known[1:4].any()

@@ -35,7 +35,7 @@ SOUGHT = {"lines": {}, "modes": 4, "orders": ORDERS, "excited": {}}
 def response(coarse_rom):
     """A few speeds of the paper's E = 10, with all that the page can show."""
     more = {"states_rounds": 1, "history": {"chord": [0.0625]}}
-    return Response(of_paper(coarse_rom, SPEEDS, 8, twin=True, **more), coarse_rom)
+    return Response(of_paper(coarse_rom, SPEEDS, 8, predictable=True, **more), coarse_rom)
 
 
 @pytest.fixture(scope="module")

@@ -71,7 +71,7 @@ def test_speeds_in_rad_s_and_outputs_of_its_own_are_no_hindrance(case, coarse_ro
     Omega = 2 * np.pi * coarse_rom.f1 * 0.3
     other = case.but(
         speeds={"over_f1": None, "rad_s": [Omega]},
-        twin=True,
+        verify={"predictable": True},
         record={"history": {"chord": [0.5]}, "spectrum_rounds": 4, "states_rounds": 2},
         peaks={"orders": [4], "within_over_f1": 0.01},
     )

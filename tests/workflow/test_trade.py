@@ -176,7 +176,7 @@ def test_every_row_fits_its_model(of_study, coarse_rom):
             and case.label != "sweep"
         ):
             check_scene(case.scene.but(blade="coarse"), coarse_rom)
-            assert case.scene.record.wear and not case.scene.twin
+            assert case.scene.record.wear and not case.scene.twins
 
 
 def test_each_study_changes_one_choice_against_its_own_finest(of_study):

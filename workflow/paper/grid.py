@@ -93,7 +93,9 @@ def of_coating(runs: xr.Dataset, rom: Rom, scene: Scene) -> Numbers:
 
 def _predictable(rom: Rom, scene: Scene, numbers: Numbers) -> dict[str, Any]:
     """Status of the run at a peak, and its difference from its twin."""
-    with_twin = at_speeds(scene.but(twin=True), rom, [numbers["Omega_c"] * rom.omega1])
+    with_twin = at_speeds(
+        scene.but(verify={"predictable": True}), rom, [numbers["Omega_c"] * rom.omega1]
+    )
     return _end(as_sweep(with_twin, check=False).isel(speed_over_f1=0))
 
 

@@ -17,7 +17,8 @@ copyright = "the Tiprub developers, BSD-3-Clause"
 root_doc = "README"
 include_patterns = [
     *PAGES,
-    *("workflow/own-blade.md", "workflow/safe.md", "tests/fem/CATALOGUE.md", "CHANGELOG.md"),
+    *("workflow/own-blade.md", "workflow/sure.md", "workflow/safe.md"),
+    *("tests/fem/CATALOGUE.md", "CHANGELOG.md"),
     "workflow/site/*.md",
 ]
 extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx.ext.viewcode"]

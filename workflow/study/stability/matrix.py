@@ -7,8 +7,8 @@ wrong    None of these: silently wrong.
 unjudged Its status has a result, but the two references differ, or have none.
 
 A plain run is what a scene gives without further keys: the look at the still blade before it
-(``errors.resolution``) and its status. All checks are those of a scene with `twin: true` and
-`halving: true`: its twin, and half its step or a quarter, which state an error of at most 0.1
+(``errors.resolution``) and its status. All checks are those of a scene with `verify:
+every`: its twin, and half its step or a quarter, which state an error of at most 0.1
 (``errors.neighbours``). The reference is marched by both schemes with a fine step; the difference
 of the two does not count as an error of the run.
 """
@@ -176,8 +176,9 @@ def judge_case(case: Case, rom: Rom) -> End:
     outcome = run.outcome
     exact = references(of) if outcome.status in TO_THE_END else ()
     (by_default,), _ = checked([run], run.scene.checked_share)
-    alone, with_all = _refusal(run, halving=False), _refusal(run, halving=True)
-    best = judged_run(replace(run, scene=run.scene.but(twin=True, halving=True)))
+    checked_scene = run.scene.but(verify="every")
+    alone, with_all = _refusal(run.scene, run.setup), _refusal(checked_scene, run.setup)
+    best = judged_run(replace(run, scene=checked_scene))
     return End(
         alone or _verdict(run, exact),
         alone or _verdict(by_default, exact),
@@ -190,10 +191,10 @@ def judge_case(case: Case, rom: Rom) -> End:
     )
 
 
-def _refusal(run: Run, halving: bool) -> Verdict | None:
+def _refusal(scene: Scene, setup: Setup) -> Verdict | None:
     """Refusal of the step of a run; None where it is not too long."""
     try:
-        check_resolution(run.scene.but(halving=halving), run.setup)
+        check_resolution(scene, setup)
     except SceneError as error:
         return _refused(error)
     return None

@@ -15,9 +15,9 @@ from workflow.many.table import Whole
 from workflow.study.stability.matrix import counts
 
 KINDS = {
-    "As plain runs (`check: 0`)": "plain",
+    "As plain runs (`verify: {share: 0}`)": "plain",
     "By default, runs in contact checked": "default",
-    "With `twin: true` and `halving: true`": "checked",
+    "With `verify: every`": "checked",
 }
 ERRORS = {0.01: "1 %", 0.1: "10 %"}
 SCHEMES = {"central-difference": "central differences", "piecewise-exact": "piecewise-exact"}
