@@ -19,6 +19,7 @@ from geometry.blade import MODES, ORDERS
 from geometry.tip import EDGES, JUDGED
 from rom.model import Rom
 from simulate.errors.observables import Numbers
+from simulate.marching import WITH_RESULT
 from simulate.scene import LEADING, Scene, side_bands
 from simulate.signals import amplitude, leading_gap, maxima
 from simulate.sweeps.crossings import crossing
@@ -269,6 +270,30 @@ def _stand_out(along: NDArray[np.float64]) -> NDArray[np.int64]:
 def reported(runs: xr.Dataset, rom: Rom) -> list[Peak]:
     """Peaks of a sweep that figures and tables name, speeds ascending; none without spectra."""
     return Responses.of(runs, rom).stand_out() if "spectrum" in runs else []
+
+
+def peaks_or_largest(runs: xr.Dataset, rom: Rom) -> list[Peak]:
+    """The reported peaks; without any where the sweep responds most, else its last run.
+
+    None where nothing moves the blade: without contact and force it is at rest.
+    """
+    peaks, speeds = reported(runs, rom), runs["speed_over_f1"].values
+    if peaks or ("displacement" in runs and not runs["displacement"].any()):
+        return peaks
+    with_result = np.flatnonzero(runs["status"].isin(WITH_RESULT))
+    most = with_result[_response(runs)[with_result].argmax()] if len(with_result) else -1
+    index = int(most) % len(speeds)
+    place = runs["place"].values[index] if "place" in runs else LEADING
+    return [Peak(None, index, float(speeds[index]), place=float(place))]
+
+
+def _response(runs: xr.Dataset) -> np.ndarray:
+    """Response of each run: amplitude, else wear, else work on the rods."""
+    if "spectrum" in runs:
+        return along_order(runs)
+    if "wear" in runs:
+        return runs["wear"].values.max(axis=(1, 2))
+    return runs["ledger"].sel(energy="casing").values
 
 
 def along_order(runs: xr.Dataset, k: float | None = None) -> NDArray[np.float64]:

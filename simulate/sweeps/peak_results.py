@@ -50,7 +50,7 @@ from simulate.scene import LEADING, OF_LAST_ROUNDS, Scene
 from simulate.signals import gaps_at_ends, leading_gap, leading_wear, lobe_count
 from simulate.sweeps.continued import before
 from simulate.sweeps.dataset import checks, course, scene_of, statuses
-from simulate.sweeps.peak import Peak, Responses, along_order, reported, rise
+from simulate.sweeps.peak import Peak, Responses, peaks_or_largest, rise
 
 OF_MOTION = {
     name: name
@@ -202,20 +202,8 @@ def to_march(runs: xr.Dataset, stress: Mapping[str, Any] | None = None) -> Scene
 
 
 def asked(runs: xr.Dataset, rom: Rom) -> list[Peak]:
-    """The reported peaks; without any where the sweep responds most, else its last run.
-
-    None where nothing moves the blade: without contact and force it is at rest.
-    """
-    peaks = reported(runs, rom)
+    """The peaks of ``peaks_or_largest``, with what the sweep tells of them."""
     speeds = runs["speed_over_f1"].values  # ascending
-    if "displacement" in runs and not runs["displacement"].any():
-        return []
-    if not peaks:
-        with_result = np.flatnonzero(runs["status"].isin(WITH_RESULT))
-        last = len(speeds) - 1
-        most = with_result[_response(runs)[with_result].argmax()] if len(with_result) else last
-        place = runs["place"].values[most] if "place" in runs else LEADING
-        peaks = [Peak(None, int(most), float(speeds[most]), place=float(place))]
     return [
         replace(
             peak,
@@ -226,17 +214,8 @@ def asked(runs: xr.Dataset, rom: Rom) -> list[Peak]:
             lobes=_lobes(runs, peak.index),
             course=course(runs.isel(speed_over_f1=peak.index)),
         )
-        for peak in peaks
+        for peak in peaks_or_largest(runs, rom)
     ]
-
-
-def _response(runs: xr.Dataset) -> np.ndarray:
-    """Response of each run: amplitude, else wear, else work on the rods."""
-    if "spectrum" in runs:
-        return along_order(runs)
-    if "wear" in runs:
-        return runs["wear"].values.max(axis=(1, 2))
-    return runs["ledger"].sel(energy="casing").values
 
 
 def _with_rise(peak: Peak, case: Case, runs: xr.Dataset, stress: Mapping[str, Any] | None) -> Peak:

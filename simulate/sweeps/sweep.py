@@ -19,8 +19,7 @@ from simulate.errors.accuracy import Choice
 from simulate.scene import EVERY, PEAKS, Peaks, Scene
 from simulate.sweeps.dataset import OF_MOTION, checks, merge
 from simulate.sweeps.over_speeds import as_sweep, at_speeds, tell_before
-from simulate.sweeps.peak import Responses, along_order, rise
-from simulate.sweeps.peak_results import asked
+from simulate.sweeps.peak import Responses, along_order, peaks_or_largest, rise
 from simulate.sweeps.unusual import doubts_of_runs, warn_of
 
 
@@ -87,7 +86,7 @@ def verified(
 
     Without a peak that where the sweep responds most.
     """
-    at_peaks = sorted({peak.index for peak in asked(runs, rom)})
+    at_peaks = sorted({peak.index for peak in peaks_or_largest(runs, rom)})
     speeds = runs["speed"].values[at_peaks]
     again = at_speeds(scene.but(verify=EVERY), rom, speeds, report, choice)
     if not again:
