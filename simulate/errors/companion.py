@@ -89,7 +89,7 @@ class Fineness:
         fewer = QUICK_STEP_RATIO if self.steps_per_round % samples else 1
         return scene.but(
             accuracy=None,
-            verify={"share": 0.0},
+            verify={"share": 0.0, "predictable": scene.twins},
             integrator={"scheme": "piecewise-exact", "steps_per_round": self.steps_per_round},
             liner__rods_per_round=self.rods_per_round,
             liner__strips=self.strips,

@@ -258,25 +258,9 @@ def _with_errors(
         return at_peak(case.neighbour(other), peak, through(at, T))
 
     first = numbers_of(ITSELF)
-    parts, both = peak.parts | {"twin": change(first, numbers_of(TWIN))}, ()
-    along = case.scene.speeds.over_f1 is not None
-    for name, error, moves in (
-        ("model", model_error.basis, False),
-        ("mesh", model_error.mesh, along),
-    ):
-        if error:
-            by_share = {
-                share: numbers_of(raised(share, moves)) if share else first
-                for share in (-error, 0.0, error)
-            }
-            parts[name] = change(first, by_share[error], by_share[-error])
-            both = both or sides(
-                lambda share, moves=moves: numbers_of(raised(share, moves)), by_share
-            )
-    for name, (other, times, T) in _of_other_fineness(case).items():
-        changes = change(first, numbers_of(other, T))
-        least = LEAST_PART * largest(changes)
-        parts[name] = {number: max(size, least) / times for number, size in changes.items()}
+    by_twin = {"twin": change(first, numbers_of(TWIN))}
+    by_models, both = _of_models(first, numbers_of, case, model_error)
+    parts = peak.parts | by_twin | by_models | _of_fineness(first, numbers_of, case)
     if peak.k and peak.at_end:
         parts["speeds"] = {"amplitude": inf}
     if stress and at:
@@ -296,6 +280,43 @@ def _with_errors(
         parts=parts,
         runs=peak.runs + len(runs),
     )
+
+
+def _of_models(
+    first: Numbers, numbers_of: Callable[[Neighbour], Numbers], case: Case, model_error: ModelError
+) -> tuple[dict[str, Numbers], Sequence[Numbers]]:
+    """Changes of the ``first`` numbers by models off by each known error; numbers of two motions.
+
+    The latter from both sides of the first jump that is found.
+    """
+    parts, both = {}, ()
+    along = case.scene.speeds.over_f1 is not None
+    for name, error, moves in (
+        ("model", model_error.basis, False),
+        ("mesh", model_error.mesh, along),
+    ):
+        if error:
+            by_share = {
+                share: numbers_of(raised(share, moves)) if share else first
+                for share in (-error, 0.0, error)
+            }
+            parts[name] = change(first, by_share[error], by_share[-error])
+            both = both or sides(
+                lambda share, moves=moves: numbers_of(raised(share, moves)), by_share
+            )
+    return parts, both
+
+
+def _of_fineness(
+    first: Numbers, numbers_of: Callable[..., Numbers], case: Case
+) -> dict[str, Numbers]:
+    """Errors that follow from the changes of the ``first`` numbers by runs of other fineness."""
+    parts = {}
+    for name, (other, times, T) in _of_other_fineness(case).items():
+        changes = change(first, numbers_of(other, T))
+        least = LEAST_PART * largest(changes)
+        parts[name] = {number: max(size, least) / times for number, size in changes.items()}
+    return parts
 
 
 def _with_second_order(peak: Peak, case: Case, known: SecondOrder, gap: float) -> Peak:

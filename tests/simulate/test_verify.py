@@ -6,6 +6,7 @@ from refused import refused
 from scenes import of_steps, scene
 
 from geometry.base import SettingsError
+from simulate.errors.companion import Fineness
 from simulate.scene import Scene
 from simulate.scene.verify import FormerKeyWarning, shown
 from simulate.sweeps.peak_results import asked
@@ -101,3 +102,9 @@ def test_at_the_peaks_alone_all_second_runs_are_made(coarse_rom):
     np.testing.assert_array_equal(at_peaks["wear"][others], plain["wear"][others])
     assert at_peaks.attrs["scene"] != every.attrs["scene"]
     assert "half" in at_peaks["error"].attrs["long_name"] or "twice" in at_peaks["error"].long_name
+
+
+def test_with_an_accuracy_every_adds_the_twin_alone():
+    """The scene that is marched has the chosen step in place of the accuracy."""
+    marched = Fineness(1280, 512, 8).scene(scene(**WITHIN, verify="every"))
+    assert (marched.twins, marched.halves, marched.checked_share) == (True, False, 0)
