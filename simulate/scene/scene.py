@@ -92,6 +92,10 @@ RODS_OF_START = "start: a run with half the step has other rods than the worn li
 GOES_ON = (
     "speeds.in_turn: a run with half the step has other rods than the run that it goes on from"
 )
+AT_PEAKS = (
+    "verify: peaks, for which each row would be run twice (`every` checks all its speeds at once, "
+    "`{share: 0.1}` those at risk)"
+)
 OF_LAST_ROUNDS = ("history", "states_rounds", "motion", "gauges")  # of the record, over time
 EXCLUDED = [  # keys of which a scene has one at most, named by the first
     ("start", "accuracy"),
@@ -103,6 +107,7 @@ EXCLUDED = [  # keys of which a scene has one at most, named by the first
     ("contact.friction", NOT_ESTIMATED),
     ("until", "accuracy"),
     *product(("verify",), (RODS_OF_START, GOES_ON)),
+    ("design", AT_PEAKS),
 ]
 
 
@@ -355,6 +360,7 @@ class Scene(SettingsFile):
             "verify": not isinstance(self.verify, Share),
             RODS_OF_START: start,
             GOES_ON: self.speeds.in_turn,
+            AT_PEAKS: self.verify == PEAKS,
             "design": self.design,
             "peaks": self.peaks,
             AT_REST: self.gaps.vary,

@@ -78,6 +78,7 @@ def test_they_change_what_a_base_says(tmp_path):
         ({"verify": "every", "twin": True}, "twin", None),
         ({"verify": None, "halving": "often"}, "halving", "often"),
         ({"verify": "peaks", "start": {"scene": "before"}}, "verify", None),
+        ({"verify": "peaks", "design": "rows.csv"}, "design", None),
     ],
 )
 def test_what_is_none_of_them_is_refused(changes, key, value):
