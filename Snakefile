@@ -6,12 +6,11 @@ report: "workflow/report/workflow.rst"
 
 
 include: "workflow/rules/common.smk"
-include: "workflow/rules/functions.smk"
 
 
 rule all:
     input:
-        delivered,
+        project.delivered_files,
 
 
 include: "workflow/rules/geometry.smk"
@@ -25,7 +24,6 @@ include: "workflow/rules/experiment.smk"
 include: "workflow/rules/study.smk"
 include: "workflow/rules/paper.smk"
 include: "workflow/rules/explore.smk"
-include: "workflow/rules/numbers.smk"
 
 
 onstart:

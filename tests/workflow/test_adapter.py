@@ -1,43 +1,13 @@
 import os
 import subprocess
 import sys
-from collections.abc import Mapping
 from importlib import import_module
 from textwrap import indent
-from typing import Annotated, Any
 
 import pytest
 from projects import ROOT
 
-from geometry.base import UserError, write_json
-from workflow.config import Config
-from workflow.job_arguments import argument
-from workflow.paper.measure import Numbers
-
-
-@pytest.mark.parametrize(
-    ("kind", "given", "expected"),
-    [
-        (str, "a.json", "a.json"),
-        (str | None, "a.json", "a.json"),
-        (list[str], ["a.json"], ["a.json"]),
-        (Any, "a.json", "a.json"),
-        (Mapping[str, Any], {"K": 1.0}, {"K": 1.0}),
-        (Numbers, "a.json", {"K": 1.0}),
-        (list[Numbers], ["a.json", "a.json"], [{"K": 1.0}] * 2),
-        (Annotated[int, len], "a.json", 6),
-        (list[float] | None, None, None),
-        (list[float] | None, [1.0, 2.0], [1.0, 2.0]),
-        (Numbers | None, [], None),  # no file
-        (Annotated[int, len] | None, "a.json", 6),
-        (Config, {"scenes": ["a"], "blocks": 2}, Config(scenes=["a"], blocks=2)),
-    ],
-)
-def test_an_argument_is_what_its_type_asks_for(kind, given, expected, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    write_json({"K": 1.0}, "a.json")
-    assert argument(kind, given) == expected
-
+from geometry.base import UserError, read_json
 
 SCRIPTS = str(ROOT / "workflow/scripts")
 SCRIPT = """
@@ -169,3 +139,22 @@ def test_a_terminal_shows_a_bar_and_other_lines_at_most_every_few_seconds(job):
     assert shown[1:] == [*bars, warning]
     status, outside, log = job(TELLING)
     assert (status, outside, log.splitlines()[:-1]) == (0, f"{warning}\n", lines_of_log)
+
+
+def test_the_result_of_a_job_is_written_with_its_texts(tmp_path):
+    """As JSON, and what functions of it give, by the name of the output."""
+    paths = [tmp_path / name for name in ("a.json", "a.csv", "log")]
+    script = """
+import sys, types
+from adapter import job
+
+def call(of, tell):
+    return {"n": of.wildcards["n"] + 1}
+
+snakemake = types.SimpleNamespace(log=[sys.argv[3]], rule="count", params={}, wildcards={"n": 1})
+snakemake.input, snakemake.output = {}, {"json": sys.argv[1], "csv": sys.argv[2]}
+job(snakemake, call, csv=lambda result: f"n\\n{result['n']}\\n")
+"""
+    environment = os.environ | {"PYTHONPATH": f"{ROOT}:{SCRIPTS}"}
+    subprocess.run([sys.executable, "-c", script, *map(str, paths)], env=environment, check=True)
+    assert read_json(paths[0]) == {"n": 2} and paths[1].read_text() == "n\n2\n"

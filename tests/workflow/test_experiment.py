@@ -162,10 +162,9 @@ def on_coarse(coarse_rom, monkeypatch):
 def march(rows, folder, block=0, blocks=1):
     """A block of these rows, as a job marches them."""
     planned = [
-        Row.model_validate(row.model_dump(mode="json") | {"number": number})
-        for number, row in enumerate(rows, 1)
+        row.model_dump(mode="json") | {"number": number} for number, row in enumerate(rows, 1)
     ]
-    entries = experiment(planned, blocks, str(block), folder, silent)
+    entries = experiment(planned, blocks, block, folder, silent)
     return table.rows([entries], folder)
 
 

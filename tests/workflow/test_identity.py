@@ -108,7 +108,8 @@ def finished(tmp_path_factory) -> Project:
     write(project, "blades/matrices.yaml", matrices)
     for name, change in SCENES.items():
         write(project, f"scenes/{name}.yaml", {"base": "foreign"} | change)
-    (project.folder / "workflow/scripts/job.py").write_text(NO_JOB)
+    for script in (project.folder / "workflow/scripts").glob("[!_]*.py"):
+        script.write_text(NO_JOB)
     project.run(*OUTPUTS)
     assert not project.planned(*OUTPUTS)
     return project

@@ -1,12 +1,13 @@
 """What jobs depend on, by the imports in their modules, against what Python imports."""
 
+import ast
 import json
 import os
 import re
 import subprocess
 import sys
 from importlib import import_module
-from inspect import Parameter, signature
+from inspect import signature
 from pathlib import Path
 from textwrap import dedent
 
@@ -117,7 +118,7 @@ GAUGED = """
 base: paper-e1
 record: {gauges: [{name: root, at: [440, 1.8, 0], direction: [1, 0, 0]}]}
 """
-# Writes a job of each rule: its function, what that loads by name, what it holds, its code.
+# Writes a job of each rule: its script, what that loads by name, what it holds, its code.
 HOOK = """
 def write_jobs():
     import json
@@ -125,14 +126,17 @@ def write_jobs():
     found = {rule.name: None for rule in workflow.rules if rule.script}
     for job in workflow.dag.jobs:
         if job.rule.script:
-            held = {*job.params.get("given", {}), "files", "names", "tell", "report"}
-            for part in (job.input, job.output, job.params):
-                held |= dict(part.items()).keys()
+            held = [
+                f"{of}.{name}"
+                for of in ("input", "output", "params", "wildcards")
+                for name in dict(getattr(job, of).items())
+            ]
+            script = job.rule.script.rpartition("/")[-1].removesuffix(".py")
             code = list(map(str, job.input.code))
             cases = job.params.get("given", {}).get("cases", [])
             loaded = {of for case in cases for of in (case["function"], case["model"]) if of}
             loaded |= {of for of in [job.params.get("module")] if of}
-            found[job.rule.name] = job.params.run, sorted(loaded), sorted(held), code
+            found[job.rule.name] = f"workflow.scripts.{script}", sorted(loaded), held, code
     with open("jobs.json", "w") as file:
         json.dump(found, file)
 
@@ -162,18 +166,40 @@ def modules_of(job):
     return sorted({name.partition(":")[0] for name in (run, *loaded)})
 
 
-def test_every_rule_gives_its_function_what_that_asks_for(jobs):
-    for rule, (run, loaded, held, _) in jobs.items():
-        module, function = run.split(":")
-        asked = signature(getattr(import_module(module), function)).parameters
-        needed = {name for name, of in asked.items() if of.default is Parameter.empty}
-        assert needed <= set(held), rule
+def test_every_rule_has_what_its_script_asks_for(jobs):
+    for rule, (module, loaded, held, _) in jobs.items():
+        script = (ROOT / module.replace(".", "/")).with_suffix(".py").read_text()
+        asked = re.findall(r"\bof\.((?:input|output|params|wildcards)\.(?!items\b)\w+)", script)
+        assert {*asked} <= {*held}, rule
         for name in loaded:  # a module that draws, or functions of an experiment
             module, _, function = name.partition(":")
             assert hasattr(import_module(module), function or "draw"), rule
 
 
-def test_every_rule_depends_on_the_module_of_its_function(jobs):
+def calls(script):
+    """Functions of the project that a script calls, each with the number of its arguments."""
+    tree = ast.parse((ROOT / script.replace(".", "/")).with_suffix(".py").read_text())
+    imports = [node for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)]
+    found = {of.name: node.module for node in imports for of in node.names}
+    for node in ast.walk(tree):
+        name = node.func.id if isinstance(node, ast.Call) and hasattr(node.func, "id") else None
+        if found.get(name, "adapter") != "adapter":
+            starred = any(isinstance(argument, ast.Starred) for argument in node.args)
+            yield getattr(import_module(found[name]), name), None if starred else len(node.args)
+
+
+def test_every_script_gives_a_function_as_many_arguments_as_it_takes(jobs):
+    scripts = {script for script, *_ in jobs.values()}
+    assert len(scripts) > 35
+    for script in scripts:
+        called = list(calls(script))
+        assert called, script
+        for function, count in called:
+            if count is not None:
+                signature(function).bind(*range(count))
+
+
+def test_every_rule_depends_on_what_its_script_imports(jobs):
     for rule, job in jobs.items():
         assert job[-1] == list(sources_of(*modules_of(job))), rule
 

@@ -1,6 +1,6 @@
-"""Functions of the rules: from the paths of input files and from settings to output files.
+"""Jobs: from the paths of input files and from settings to output files or numbers.
 
-A rule names one in `params.run`; it gets, by the names of its arguments, the rule's values (see
-``workflow/scripts/adapter.py``). A rule depends on all that the module of its function imports, so
-that functions with other imports stand in other modules.
+The scripts of the rules, ``workflow/scripts``, call them. A job depends on all that its module
+imports, so that functions with other imports stand in other modules. Where a file may be missing
+its path is empty.
 """

@@ -9,33 +9,34 @@ from rom.model import Rom
 
 
 def compare(
-    rom: Rom,
-    full: FullModel,
+    rom: str,
+    full: str,
     settings: str,
     tolerance: float,
     speeds: list[float] | None,
+    mesh: str,
     checked: str,
     report: Say,
-    mesh: str | None = None,
 ) -> None:
     """Compare both models; at further speeds, too, where neighbours among ``speeds`` disagree.
 
     ``settings``: the blade's file; ``speeds``: of its basis, rad/s, None for matrices from
-    elsewhere, which have no others.
+    elsewhere, which have no others, nor a mesh.
 
     Raises
     ------
     rom.model.RomError
         When the error exceeds the tolerance, %.
     """
-    result = check(rom, full)
+    reduced, full_model = Rom.load(rom), FullModel.load(full)
+    result = check(reduced, full_model)
     more = further_speeds(result, np.array(speeds), tolerance) if speeds else np.empty(0)
     if more.size:
         from workflow.jobs.full_model import solved_at  # FEniCSx is imported for nothing else
 
         shown = ", ".join(f"{speed:.6g}" for speed in more)
         report(f"errors at neighbouring speeds disagree: full model at {shown} rad/s, too")
-        result = check(rom, full.joined(solved_at(more, settings, mesh)))
+        result = check(reduced, full_model.joined(solved_at(more, settings, mesh)))
     print(f"full model solved at {', '.join(f'{speed:.6g}' for speed in result.speeds)} rad/s")
     print(f"largest frequency error of each mode: {abs(result.error).max(axis=0)}")
     result.require(tolerance)

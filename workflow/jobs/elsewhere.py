@@ -17,16 +17,17 @@ def read(blade: str, matrices: str) -> None:
     fom.save(matrices)
 
 
-def solve(matrices: Matrices, full: str) -> None:
+def solve(matrices: str, full: str) -> None:
     """Modes of the full model and its compliance, at the speeds of the matrices."""
-    solved = solve_at(matrices, matrices.states())
+    fom = Matrices.load(matrices)
+    solved = solve_at(fom, fom.states())
     print(f"largest residual of a mode: {solved.residuals.max():.1e}")
     solved.save(full)
 
 
-def take(blade: str, source: str, names: dict[str, str], rom: str) -> None:
-    """Take a reduced model, if its checks find no fault."""
+def take(blade: str, source: str, directions: str, rom: str) -> None:
+    """Take a reduced model with these ``directions``, if its checks find no fault."""
     taken = read_elsewhere(source, Path(blade).stem)
-    taken.require_directions(names["directions"])
+    taken.require_directions(directions)
     print(*described(taken), "not checked:", *UNCHECKED, sep="\n")
     taken.save(rom)

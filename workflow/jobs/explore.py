@@ -1,5 +1,6 @@
 """The page to explore a sweep."""
 
+from pathlib import Path
 from typing import Any
 
 from geometry.base import read_json, write_whole
@@ -15,30 +16,33 @@ from workflow.summary import panel
 
 
 def write(
-    blade: Blade,
+    blade: str,
+    scene: str,
     mesh: str,
     rom: str,
     basis: str,
     sweep: str,
     answers: str,
-    stress: dict[str, Any] | None,
+    stress: str,
     operating: dict[str, Any],
-    names: dict[str, str],
     html: str,
 ) -> None:
-    """Write the page.
+    """Write the page of a ``scene``; its stresses may be missing.
 
-    ``operating``: as of ``simulate.sweeps.crossings.critical``.
+    ``blade``: its file; ``operating``: as of ``simulate.sweeps.crossings.critical``.
     """
     response = Response.read(sweep, rom)
     full_basis = Basis.load(basis, origin(response.sweep))
     motion, blade_arrays = None, {}
     if "motion" in response.sweep:
-        motion, blade_arrays = moving(blade, mesh, full_basis, response.sweep, response.rom)
+        motion, blade_arrays = moving(
+            Blade.load(blade), mesh, full_basis, response.sweep, response.rom
+        )
     campbell = critical(response.rom, operating)
-    shown = facts(response, names["blade"], names["scene"], campbell) | {
+    stresses = read_json(stress) if stress else None
+    shown = facts(response, Path(blade).stem, scene, campbell) | {
         "motion": motion,
-        "answers": panel(read_json(answers), campbell, stress),
+        "answers": panel(read_json(answers), campbell, stresses),
         "operating": operating["lines"],
     }
     write_whole(page.html(shown, arrays(response) | blade_arrays), html)

@@ -1,8 +1,11 @@
 """The reduced model of a scene with strain gauges: M and K, and what the gauges read."""
 
+from collections.abc import Mapping
 from dataclasses import replace
+from typing import Any
 
 from fem.fields import gauge_rows
+from geometry.base import check_settings
 from geometry.blade import Blade
 from rom.model import Rom
 from rom.polynomial import interpolate
@@ -10,14 +13,16 @@ from rom.reconstruct import Basis
 from simulate.scene import Record
 
 
-def place(settings: Blade, mesh: str, basis: str, rom: Rom, record: Record, model: str) -> None:
-    """Add the grids of a ``record`` to a reduced model, at the speeds of its ``basis``.
-
-    ``settings``: of its blade.
-    """
-    full_basis = Basis.load(basis, rom.provenance)
-    statics, grids = (full_basis.static(Omega) for Omega in rom.speeds), record.grids
+def place(
+    blade: str, mesh: str, basis: str, rom: str, record: Mapping[str, Any], model: str
+) -> None:
+    """Add the grids of a ``record`` to a reduced model, at the speeds of its ``basis``."""
+    plain = Rom.load(rom)
+    full_basis = Basis.load(basis, plain.provenance)
+    statics = (full_basis.static(Omega) for Omega in plain.speeds)
+    grids = check_settings(Record, dict(record), "").grids
     by_speed = gauge_rows(
-        settings, mesh, full_basis.coordinates, grids.values(), statics, full_basis.T
+        Blade.load(blade), mesh, full_basis.coordinates, grids.values(), statics, full_basis.T
     )
-    replace(rom, gauges=tuple(grids), gauge_rows=interpolate(by_speed, rom.speeds)).save(model)
+    rows = interpolate(by_speed, plain.speeds)
+    replace(plain, gauges=tuple(grids), gauge_rows=rows).save(model)

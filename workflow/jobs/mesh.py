@@ -5,9 +5,9 @@ from geometry.blade import Blade
 from geometry.mesh import ENOUGH, MeshSummary, build_mesh
 
 
-def build(blade: Blade, mesh: str, report: Say, source: str | None = None) -> None:
+def build(blade: str, source: str, mesh: str, report: Say) -> None:
     """Mesh a blade, with the geometry in the file ``source`` where its own file names one."""
-    report_mesh(build_mesh(blade, mesh, source), report)
+    report_mesh(build_mesh(Blade.load(blade), mesh, source or None), report)
 
 
 def report_mesh(summary: MeshSummary, report: Say) -> None:

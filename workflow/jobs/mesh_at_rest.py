@@ -6,6 +6,6 @@ from geometry.blade import Blade
 from workflow.jobs.mesh import report_mesh
 
 
-def build(blade: Blade, mesh: str, report: Say, source: str | None = None) -> None:
+def build(blade: str, source: str, mesh: str, report: Say) -> None:
     """Mesh a blade at rest, with the geometry in the file ``source`` where its own names one."""
-    report_mesh(build_mesh_at_rest(blade, mesh, source), report)
+    report_mesh(build_mesh_at_rest(Blade.load(blade), mesh, source or None), report)

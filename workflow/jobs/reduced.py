@@ -7,16 +7,10 @@ from rom.reconstruct import Basis
 from rom.reduce import reduce
 
 
-def make(
-    blade: str,
-    matrices: Matrices,
-    names: dict[str, str],
-    rom: str,
-    tell: Say,
-    basis: str,
-) -> None:
-    """Reduce M and K(Omega)."""
-    reduced, T = reduce(matrices, read_blade(blade).basis, names["directions"], tell)
+def make(blade: str, matrices: str, directions: str, rom: str, basis: str, tell: Say) -> None:
+    """Reduce M and K(Omega), with these ``directions`` of the interface."""
+    fom = Matrices.load(matrices)
+    reduced, T = reduce(fom, read_blade(blade).basis, directions, tell)
     print(f"n = {reduced.n}, f1(0) = {reduced.f1:.2f} Hz")
-    Basis.of(matrices, T, reduced.provenance).save(basis)
+    Basis.of(fom, T, reduced.provenance).save(basis)
     reduced.save(rom)

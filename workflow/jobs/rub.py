@@ -1,22 +1,26 @@
 """The animation of a scene at one speed."""
 
-from rom.model import Rom
-from simulate.errors.accuracy import Choice
-from simulate.scene import Scene
-from simulate.sweeps.dataset import Sweep
+from collections.abc import Mapping
+from typing import Any
+
 from workflow.explore.rub import by_rounds, save
 from workflow.figures.response import liner_and_tip
+from workflow.jobs.given import given
 
 
 def animate(
-    scene: Scene,
-    rom: Rom,
-    settings: Choice | None,
-    start: Sweep | None,
-    names: dict[str, str],
+    scene: Mapping[str, Any],
+    rom: str,
+    choice: str,
+    start: str,
+    speed: float,
+    subject: str,
     animation: str,
 ) -> None:
-    """Run the scene revolution by revolution, and draw it."""
-    rub = by_rounds(scene, rom, float(names["speed"]), settings, start)
-    title = f"scene {names['scene']}, blade {names['blade']}: {liner_and_tip(scene)}"
-    save(rub, title, animation)
+    """Run the scene at a ``speed`` over f1(0) revolution by revolution, and draw it.
+
+    ``subject``: what its title names; ``choice``, ``start``: as of ``given``.
+    """
+    of = given(scene, rom, choice, start)
+    rub = by_rounds(of.scene, of.rom, speed, of.choice, of.start)
+    save(rub, f"{subject}: {liner_and_tip(of.scene)}", animation)

@@ -1,31 +1,32 @@
 """Whole sweeps: with more speeds around the peaks that the scene asks for."""
 
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from geometry.base import Say
-from rom.model import Rom
-from simulate.errors.accuracy import Choice
-from simulate.scene import Scene
-from simulate.sweeps.dataset import Sweep, merge, require_rom, save
+from simulate.sweeps.dataset import load, merge, require_rom, save
 from simulate.sweeps.sweep import close_in
+from workflow.jobs.given import given
 
 
 def of_blocks(
-    scene: Scene,
-    rom: Rom,
-    settings: Choice | None,
-    start: Sweep | None,
-    blocks: list[Sweep],
-    sought: dict[str, Any],
-    names: dict[str, str],
+    name: str,
+    scene: Mapping[str, Any],
+    rom: str,
+    choice: str,
+    start: str,
+    blocks: Iterable[str],
+    sought: Mapping[str, Any],
     sweep: str,
     tell: Say,
 ) -> None:
-    """Merge ``blocks``, and add speeds around peaks.
+    """Merge ``blocks`` of the scene of this ``name``, and add speeds around peaks.
 
-    ``sought``: the number of ``modes``, and the ``orders``, of which peaks are sought.
+    ``sought``: the number of ``modes``, and the ``orders``, of which peaks are sought;
+    ``choice``, ``start``: as of ``given``.
     """
-    runs = merge(blocks).assign_attrs(sought)
-    require_rom(runs, rom)
-    swept = close_in(scene, rom, runs, tell, settings, start)
-    save(swept.assign_attrs(name=names["scene"]), sweep)
+    of = given(scene, rom, choice, start)
+    runs = merge([*map(load, blocks)]).assign_attrs(sought)
+    require_rom(runs, of.rom)
+    swept = close_in(of.scene, of.rom, runs, tell, of.choice, of.start)
+    save(swept.assign_attrs(name=name), sweep)

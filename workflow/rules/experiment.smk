@@ -1,4 +1,4 @@
-# Experiments: workflow/experiments/NAME.yaml, its rows in blocks, and their picture. Their table is a row of numbers.yaml.
+# Experiments: workflow/experiments/NAME.yaml, its rows in blocks, and their picture.
 wildcard_constraints:
     experiment=r"[^/]+",
 
@@ -6,9 +6,9 @@ wildcard_constraints:
 # Rows that are done are in `rows`, which Snakemake does not know, as those of designs.
 rule experiment_block:
     input:
-        models=models_of_experiment,
-        checks=ancient(checks_of_experiment),
-        code=code_of_experiment,
+        models=experiments.models,
+        checks=ancient(experiments.checks),
+        code=experiments.code,
     output:
         json="results/experiments/{experiment}/block-{block}.json",
     log:
@@ -16,20 +16,40 @@ rule experiment_block:
     benchmark:
         "results/experiments/{experiment}/benchmarks/block-{block}.tsv"
     params:
-        run="workflow.jobs.many:experiment",
-        contents=contents_of_experiment,
-        given=plan_of_experiment,
+        contents=experiments.contents,
+        given=experiments.plan,
         block="{block}",
         folder="results/experiments/{experiment}/rows",
     message:
         "Experiment {wildcards.experiment}, block {wildcards.block} of its rows"
     script:
-        "../scripts/job.py"
+        "../scripts/experiment_block.py"
+
+
+rule experiment:
+    input:
+        blocks=experiments.blocks,
+        code=code_of("experiment"),
+    output:
+        json="results/experiments/{experiment}/table.json",
+        csv="results/experiments/{experiment}/table.csv",
+        markdown="results/experiments/{experiment}/table.md",
+    log:
+        "results/experiments/{experiment}/logs/table.log",
+    benchmark:
+        "results/experiments/{experiment}/benchmarks/table.tsv"
+    localrule: True
+    params:
+        folder="results/experiments/{experiment}/rows",
+    message:
+        "Table of experiment {wildcards.experiment}"
+    script:
+        "../scripts/experiment.py"
 
 
 rule experiment_picture:
     input:
-        code=code_of("workflow.jobs.figure", "workflow.figures.experiment"),
+        code=code_of("figure", "workflow.figures.experiment"),
         rows="results/experiments/{experiment}/table.json",
     output:
         png="results/experiments/{experiment}/picture.png",
@@ -38,10 +58,9 @@ rule experiment_picture:
         "results/experiments/{experiment}/logs/picture.log",
     localrule: True
     params:
-        run="workflow.jobs.figure:draw",
         module="workflow.figures.experiment",
-        given=lambda wildcards: {"picture": picture_of_experiment(wildcards)},
+        given=lambda wildcards: {"picture": experiments.picture(wildcards)},
     message:
         "Picture of experiment {wildcards.experiment}"
     script:
-        "../scripts/job.py"
+        "../scripts/figure.py"

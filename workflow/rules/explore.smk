@@ -1,16 +1,16 @@
 rule explore:
     input:
-        code=code_of("workflow.jobs.explore"),
+        code=code_of("explore"),
         parts=own_files(
             f"workflow/explore/{name}"
             for name in ("blade.js", "page.css", "page.html", "page.js", "save.js", "units.js")
         ),
         mesh="results/{blade}/blade.msh",
-        rom=rom_of_scene,
-        basis=basis_of_scene,
+        rom=scenes.rom,
+        basis=scenes.basis,
         sweep="results/{blade}/{scene}/sweep.nc",
         answers="results/{blade}/{scene}/answers.json",
-        stress=stress_of_page,
+        stress=scenes.stress_of_page,
     output:
         html=report(
             "results/{blade}/{scene}/explore.html",
@@ -26,23 +26,22 @@ rule explore:
     benchmark:
         "results/{blade}/{scene}/benchmarks/explore.tsv"
     params:
-        run="workflow.jobs.explore:write",
-        blade=blade_file,
-        uses=blade_uses("material", "prestress"),
-        operating=lambda wildcards: operating_of(wildcards.blade),
+        blade=blades.file,
+        uses=blades.uses("material", "prestress"),
+        operating=lambda wildcards: project.operating(wildcards.blade),
     message:
         "Page to explore scene {wildcards.scene}"
     script:
-        "../scripts/job.py"
+        "../scripts/explore.py"
 
 
 rule rub:
     input:
-        code=code_of("workflow.jobs.rub"),
-        rom=rom_of_scene,
-        check=ancient(check_of_scene),
-        settings=settings_of_scene,
-        start=sweep_before,
+        code=code_of("rub"),
+        rom=scenes.rom,
+        check=ancient(scenes.check),
+        settings=scenes.settings,
+        start=scenes.start,
     output:
         animation="results/{blade}/{scene}/rub-{speed}.{format}",
     log:
@@ -51,10 +50,9 @@ rule rub:
         speed=r"\d+(\.\d+)?",
         format="gif|mp4|png",
     params:
-        run="workflow.jobs.rub:animate",
-        contents=contents_of_scene,
-        scene=settings_told,
+        contents=scenes.contents,
+        scene=scenes.told,
     message:
         "Animation of scene {wildcards.scene} at {wildcards.speed} f1(0)"
     script:
-        "../scripts/job.py"
+        "../scripts/rub.py"

@@ -1,24 +1,31 @@
 FEM_USES = (*GEOMETRY_USES, "material", "max_speed_rpm", "prestress")
 
 
-use rule build_mesh as build_mesh_at_rest with:
+rule build_mesh_at_rest:
     input:
-        unpack(blade_source),
-        code=code_of("workflow.jobs.mesh_at_rest"),
+        source=blades.source,
+        code=code_of("build_mesh_at_rest"),
+    output:
+        mesh="results/{blade}/blade.msh",
+    log:
+        "results/{blade}/logs/mesh.log",
+    benchmark:
+        "results/{blade}/benchmarks/mesh.tsv"
     wildcard_constraints:
-        blade=one_of(AS_IT_RUNS),
+        blade=one_of(blades.as_it_runs),
     params:
-        run="workflow.jobs.mesh_at_rest:build",
-        contents=contents_of_blade,
-        blade=blade_file,
-        uses=blade_uses(*GEOMETRY_USES, "geometry_at_rpm", "material"),
+        contents=blades.contents,
+        blade=blades.file,
+        uses=blades.uses(*GEOMETRY_USES, "geometry_at_rpm", "material"),
     message:
         "Mesh of blade {wildcards.blade} at rest"
+    script:
+        "../scripts/build_mesh_at_rest.py"
 
 
 rule assemble:
     input:
-        code=code_of("workflow.jobs.full_model"),
+        code=code_of("assemble"),
         mesh="results/{blade}/blade.msh",
     output:
         matrices="results/{blade}/matrices.h5",
@@ -27,34 +34,35 @@ rule assemble:
     benchmark:
         "results/{blade}/benchmarks/assemble.tsv"
     wildcard_constraints:
-        blade=one_of(MESHED),
+        blade=one_of(blades.meshed),
     params:
-        run="workflow.jobs.full_model:assemble",
-        blade=blade_file,
-        uses=blade_uses(*FEM_USES),
-        basis=speeds_of_basis,
+        blade=blades.file,
+        uses=blades.uses(*FEM_USES),
+        basis=lambda wildcards: (
+            blades.speeds_of_basis(wildcards),
+            blades.of(wildcards).basis.tolerance_percent,  # it decides on more
+        ),
     message:
         "M and K(Omega) of blade {wildcards.blade} at the speeds of the basis"
     script:
-        "../scripts/job.py"
+        "../scripts/assemble.py"
 
 
 rule read_matrices:
     input:
-        unpack(blade_source),
-        code=code_of("workflow.jobs.elsewhere"),
+        source=blades.source,
+        code=code_of("read_matrices"),
     output:
         matrices="results/{blade}/matrices.h5",
     log:
         "results/{blade}/logs/read-matrices.log",
     wildcard_constraints:
-        blade=one_of(WITH_MATRICES),
+        blade=one_of(blades.with_matrices),
     params:
-        run="workflow.jobs.elsewhere:read",
-        contents=contents_of_blade,
-        blade=blade_file,
-        uses=lambda wildcards: blade_settings(wildcards.blade).settings_of_matrices(),
+        contents=blades.contents,
+        blade=blades.file,
+        uses=lambda wildcards: blades.of(wildcards).settings_of_matrices(),
     message:
         "M and K(Omega) of blade {wildcards.blade} from elsewhere"
     script:
-        "../scripts/job.py"
+        "../scripts/read_matrices.py"

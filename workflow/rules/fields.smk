@@ -1,9 +1,9 @@
 rule gauges:
     input:
-        code=code_of("workflow.jobs.gauges"),
+        code=code_of("gauges"),
         mesh="results/{blade}/blade.msh",
-        basis=basis_of_scene,
-        rom=rom_with_directions,
+        basis=scenes.basis,
+        rom=scenes.rom_of_blade,
     output:
         model="results/{blade}/{scene}/gauges.nc",
     log:
@@ -11,25 +11,43 @@ rule gauges:
     benchmark:
         "results/{blade}/{scene}/benchmarks/gauges.tsv"
     wildcard_constraints:
-        blade=one_of(MESHED),
+        blade=one_of(blades.meshed),
     params:
-        run="workflow.jobs.gauges:place",
-        settings=blade_file,
-        uses=blade_uses("material", "prestress", *SOURCES),
-        record=gauges_of_scene,
+        settings=blades.file,
+        uses=blades.uses("material", "prestress", *SOURCES),
+        record=scenes.told_of_gauges,
     message:
         "What the strain gauges of scene {wildcards.scene} read"
     script:
-        "../scripts/job.py"
+        "../scripts/gauges.py"
+
+
+rule gauges_csv:
+    input:
+        sweep="results/{blade}/{scene}/sweep.nc",
+        code=code_of("gauges_csv"),
+    output:
+        csv="results/{blade}/{scene}/gauges.csv",
+    log:
+        "results/{blade}/{scene}/logs/gauges.csv.log",
+    benchmark:
+        "results/{blade}/{scene}/benchmarks/gauges.csv.tsv"
+    localrule: True
+    params:
+        blade=blades.file,
+    message:
+        "Scene {wildcards.scene}: strain gauges as CSV"
+    script:
+        "../scripts/gauges_csv.py"
 
 
 rule stress:
     input:
-        code=code_of("workflow.stress"),
+        code=code_of("stress"),
         mesh="results/{blade}/blade.msh",
-        rom=rom_of_scene,
-        basis=basis_of_scene,
-        sweep=sweep_with_motion,
+        rom=scenes.rom,
+        basis=scenes.basis,
+        sweep=scenes.sweep_with_motion,
     output:
         vtu="results/{blade}/{scene}/stress.vtu",
         json="results/{blade}/{scene}/stress.json",
@@ -38,10 +56,9 @@ rule stress:
     benchmark:
         "results/{blade}/{scene}/benchmarks/stress.tsv"
     params:
-        run="workflow.stress:write",
-        blade=blade_file,
-        uses=blade_uses("material", "prestress", "fatigue", "stress", *SOURCES),
+        blade=blades.file,
+        uses=blades.uses("material", "prestress", "fatigue", "stress", *SOURCES),
     message:
         "Mean and alternating stress of scene {wildcards.scene}"
     script:
-        "../scripts/job.py"
+        "../scripts/stress.py"

@@ -1,13 +1,14 @@
 # A rule for each row of the tables of figures, workflow/figures/figures.yaml and that of the paper.
 for name, row in FIGURES.rows.items():
     path = table.path_of(name)
+    folder, _, file = path.rpartition("/")
 
     rule:
         name:
             f"draw_{re.sub(r'\W+', '_', name).strip('_')}"
         input:
-            unpack(of_figure(FIGURES.files, name)),
-            code=code_of("workflow.jobs.figure", f"workflow.{row.draw}"),
+            unpack(project.of_figure(FIGURES.files, name)),
+            code=code_of("figure", f"workflow.{row.draw}"),
         output:
             png=report(
                 f"{path}.png",
@@ -17,19 +18,18 @@ for name, row in FIGURES.rows.items():
             ),
             pdf=f"{path}.pdf",
         log:
-            f"{kept_beside(path, 'logs')}-picture.log",
+            f"{folder}/logs/{file}-picture.log",
         localrule: True
         params:
-            run="workflow.jobs.figure:draw",
             module=f"workflow.{row.draw}",
-            given=of_figure(FIGURES.given, name),
-            caption=of_figure(FIGURES.caption, name),
+            given=project.of_figure(FIGURES.given, name),
+            caption=project.of_figure(FIGURES.caption, name),
         message:
             f"{row.title[0].upper()}{row.title[1:]}: {{output.png}}"
         script:
-            "../scripts/job.py"
+            "../scripts/figure.py"
 
 
 rule figures:
     input:
-        all_figures(),
+        project.delivered_figures(),

@@ -3,8 +3,8 @@ GEOMETRY_USES = ("sections", "section_table", "cad", "mesh_file", "mesh", "inter
 
 rule build_mesh:
     input:
-        unpack(blade_source),
-        code=code_of("workflow.jobs.mesh"),
+        source=blades.source,
+        code=code_of("build_mesh"),
     output:
         mesh="results/{blade}/blade.msh",
     log:
@@ -12,18 +12,20 @@ rule build_mesh:
     benchmark:
         "results/{blade}/benchmarks/mesh.tsv"
     wildcard_constraints:
-        blade=one_of([name for name in MESHED if name not in AS_IT_RUNS]),
+        blade=one_of([name for name in blades.meshed if name not in blades.as_it_runs]),
     params:
-        run="workflow.jobs.mesh:build",
-        contents=contents_of_blade,
-        blade=blade_file,
-        uses=blade_uses(*GEOMETRY_USES),
+        contents=blades.contents,
+        blade=blades.file,
+        uses=blades.uses(*GEOMETRY_USES),
     message:
         "Mesh of blade {wildcards.blade}"
     script:
-        "../scripts/job.py"
+        "../scripts/build_mesh.py"
 
 
 rule mesh:
     input:
-        expand("results/{blade}/blade.msh", blade=[name for name in BLADES if name in MESHED]),
+        expand(
+            "results/{blade}/blade.msh",
+            blade=[name for name in project.delivered_blades if name in blades.meshed],
+        ),

@@ -1,6 +1,6 @@
 rule reduce:
     input:
-        code=code_of("workflow.jobs.reduced"),
+        code=code_of("reduce"),
         matrices="results/{blade}/matrices.h5",
     output:
         rom="results/{blade}/rom-{directions}.nc",
@@ -10,20 +10,19 @@ rule reduce:
     benchmark:
         "results/{blade}/benchmarks/reduce-{directions}.tsv"
     wildcard_constraints:
-        blade=one_of([name for name in BLADE_FILES if name not in FOREIGN]),
+        blade=one_of(blades.reduced),
     params:
-        run="workflow.jobs.reduced:make",
-        blade=blade_file,
-        uses=basis_uses,
+        blade=blades.file,
+        uses=blades.uses_of_basis,
     message:
         "Reduced model of blade {wildcards.blade}, interface {wildcards.directions}"
     script:
-        "../scripts/job.py"
+        "../scripts/reduce.py"
 
 
 rule solve_full_model:
     input:
-        code=code_of("workflow.jobs.full_model"),
+        code=code_of("solve_full_model"),
         mesh="results/{blade}/blade.msh",
     output:
         full="results/{blade}/full-model.nc",
@@ -32,62 +31,58 @@ rule solve_full_model:
     benchmark:
         "results/{blade}/benchmarks/full-model.tsv"
     wildcard_constraints:
-        blade=one_of(MESHED),
+        blade=one_of(blades.meshed),
     params:
-        run="workflow.jobs.full_model:solve",
-        blade=blade_file,
-        uses=blade_uses(*FEM_USES),
-        speeds=speeds_of_check,
+        blade=blades.file,
+        uses=blades.uses(*FEM_USES),
+        speeds=blades.speeds_of_check,
     message:
         "Modes and tip compliance of the full model of blade {wildcards.blade}"
     script:
-        "../scripts/job.py"
+        "../scripts/solve_full_model.py"
 
 
 # At the speeds of the matrices from elsewhere: no others are known.
 rule solve_given_model:
     input:
-        code=code_of("workflow.jobs.elsewhere"),
+        code=code_of("solve_given_model"),
         matrices="results/{blade}/matrices.h5",
     output:
         full="results/{blade}/full-model.nc",
     log:
         "results/{blade}/logs/full-model.log",
     wildcard_constraints:
-        blade=one_of(WITH_MATRICES),
-    params:
-        run="workflow.jobs.elsewhere:solve",
+        blade=one_of(blades.with_matrices),
     message:
         "Modes and tip compliance of the full model of blade {wildcards.blade}, from elsewhere"
     script:
-        "../scripts/job.py"
+        "../scripts/solve_given_model.py"
 
 
 rule take_rom:
     input:
-        unpack(blade_source),
-        code=code_of("workflow.jobs.elsewhere"),
+        source=blades.source,
+        code=code_of("take_rom"),
     output:
         rom="results/{blade}/rom-{directions}.nc",
     log:
         "results/{blade}/logs/take-rom-{directions}.log",
     wildcard_constraints:
-        blade=one_of(FOREIGN),
+        blade=one_of(blades.foreign),
     params:
-        run="workflow.jobs.elsewhere:take",
-        contents=contents_of_blade,
-        blade=blade_file,
+        contents=blades.contents,
+        blade=blades.file,
     message:
         "Reduced model of blade {wildcards.blade}, from elsewhere"
     script:
-        "../scripts/job.py"
+        "../scripts/take_rom.py"
 
 
 # At further speeds of the full model, too, where neighbours disagree.
 rule check_rom:
     input:
-        unpack(mesh_of),
-        code=code_of("workflow.jobs.check_rom"),
+        mesh=blades.mesh,
+        code=code_of("check_rom"),
         full="results/{blade}/full-model.nc",
         rom="results/{blade}/rom-{directions}.nc",
     output:
@@ -95,20 +90,17 @@ rule check_rom:
     log:
         "results/{blade}/logs/check-rom-{directions}.log",
     params:
-        run="workflow.jobs.check_rom:compare",
-        settings=blade_file,
-        speeds=lambda wildcards: speeds_of_basis(wildcards)[0] if mesh_of(wildcards) else None,
-        tolerance=lambda wildcards: blade_settings(wildcards.blade).basis.tolerance_percent,
+        settings=blades.file,
+        speeds=lambda wildcards: (
+            blades.speeds_of_basis(wildcards) if blades.mesh(wildcards) else None
+        ),
+        tolerance=lambda wildcards: blades.of(wildcards).basis.tolerance_percent,
     message:
         "Reduced against full model of blade {wildcards.blade}, interface {wildcards.directions}"
     script:
-        "../scripts/job.py"
+        "../scripts/check_rom.py"
 
 
 rule rom:
     input:
-        [
-            f"results/{blade}/{file}-{directions_of(blade)}.nc"
-            for blade in BLADES
-            for file in ("rom", *(() if blade in FOREIGN else ("rom-check",)))
-        ],
+        project.roms(),

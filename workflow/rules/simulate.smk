@@ -1,9 +1,9 @@
 rule pilot:
     input:
-        code=code_of("workflow.jobs.march"),
-        rom=rom_of_scene,
-        check=check_of_scene,
-        mesh_error=mesh_error_of_scene,
+        code=code_of("pilot"),
+        rom=scenes.rom,
+        check=scenes.check,
+        mesh_error=scenes.mesh_error,
     output:
         json="results/{blade}/{scene}/settings.json",
     log:
@@ -11,43 +11,39 @@ rule pilot:
     benchmark:
         "results/{blade}/{scene}/benchmarks/pilot.tsv"
     params:
-        run="workflow.jobs.march:pilot",
-        contents=contents_of_scene,
-        scene=lambda wildcards: Told(
-            SCENES[wildcards.scene].but(design=None).model_dump(mode="json")
-        ),
+        contents=scenes.contents,
+        scene=scenes.told_alone,
     message:
         "Scene {wildcards.scene}: step and density for its accuracy"
     script:
-        "../scripts/job.py"
+        "../scripts/pilot.py"
 
 
 rule check_scene:
     input:
-        code=code_of("simulate.sweeps.over_speeds"),
-        rom=rom_of_scene,
+        code=code_of("check_scene"),
+        rom=scenes.rom,
     output:
         checked=touch("results/{blade}/{scene}/checked"),
     log:
         "results/{blade}/{scene}/logs/check.log",
     localrule: True
     params:
-        run="simulate.sweeps.over_speeds:check_sweep",
-        scene=settings_told,
+        scene=scenes.told,
     message:
         "Scene {wildcards.scene} against its reduced model"
     script:
-        "../scripts/job.py"
+        "../scripts/check_scene.py"
 
 
 rule sweep_block:
     input:
-        code=code_of("workflow.jobs.march"),
-        rom=rom_of_scene,
-        check=ancient(check_of_scene),
-        checked=checked_scene,
-        settings=settings_of_scene,
-        start=sweep_before,
+        code=code_of("sweep_block"),
+        rom=scenes.rom,
+        check=ancient(scenes.check),
+        checked=scenes.checked,
+        settings=scenes.settings,
+        start=scenes.start,
     output:
         runs="results/{blade}/{scene}/block-{block}.nc",
     log:
@@ -55,25 +51,22 @@ rule sweep_block:
     benchmark:
         "results/{blade}/{scene}/benchmarks/block-{block}.tsv"
     params:
-        run="workflow.jobs.march:block",
-        contents=contents_of_scene,
-        scene=settings_told,
-        blocks=lambda wildcards: len(blocks(wildcards)),
+        contents=scenes.contents,
+        scene=scenes.told,
+        blocks=scenes.block_count,
     message:
         "Scene {wildcards.scene}, block {wildcards.block} of its speeds"
     script:
-        "../scripts/job.py"
+        "../scripts/sweep_block.py"
 
 
 rule sweep:
     input:
-        code=code_of("workflow.jobs.sweep"),
-        rom=rom_of_scene,
-        settings=settings_of_scene,
-        start=sweep_before,
-        blocks=lambda wildcards: expand(
-            "results/{{blade}}/{{scene}}/block-{block}.nc", block=blocks(wildcards)
-        ),
+        code=code_of("sweep"),
+        rom=scenes.rom,
+        settings=scenes.settings,
+        start=scenes.start,
+        blocks=scenes.of_blocks("results/{blade}/{scene}/block-{block}.nc"),
     output:
         sweep="results/{blade}/{scene}/sweep.nc",
     log:
@@ -81,27 +74,26 @@ rule sweep:
     benchmark:
         "results/{blade}/{scene}/benchmarks/sweep.tsv"
     params:
-        run="workflow.jobs.sweep:of_blocks",
-        contents=contents_of_scene,
-        scene=settings_told,
-        sought=lambda wildcards: sought_of(wildcards.blade),
+        contents=scenes.contents,
+        scene=scenes.told,
+        sought=project.sought,
     message:
         "Sweep of scene {wildcards.scene}"
     script:
-        "../scripts/job.py"
+        "../scripts/sweep.py"
 
 
 # Rows that are done are in the folder `rows`, which Snakemake does not know: a block that is started anew, by a change or another
 # number of blocks, marches only rows that are not there.
 rule design_block:
     input:
-        code=code_of("workflow.jobs.many"),
-        rom=rom_of_scene,
-        check=ancient(check_of_scene),
-        settings=settings_of_scene,
-        table=table_of_design,
-        models=of_other_blades("rom"),
-        checks=ancient(of_other_blades("rom-check", FOREIGN)),
+        code=code_of("design_block"),
+        rom=scenes.rom,
+        check=ancient(scenes.check),
+        settings=scenes.settings,
+        table=scenes.table,
+        models=scenes.of_other_blades("rom"),
+        checks=ancient(scenes.of_other_blades("rom-check", blades.foreign)),
     output:
         json="results/{blade}/{scene}/design-block-{block}.json",
     log:
@@ -109,29 +101,26 @@ rule design_block:
     benchmark:
         "results/{blade}/{scene}/benchmarks/design-block-{block}.tsv"
     params:
-        run="workflow.jobs.many:design",
-        contents=contents_of_scene,
-        scene=settings_told,
-        file=lambda wildcards: scene_file(wildcards.scene),
+        contents=scenes.contents,
+        scene=scenes.told,
+        file=scenes.file,
         folder="results/{blade}/{scene}/rows",
         block="{block}",
-        blocks=lambda wildcards: len(blocks(wildcards)),
-        of_rows=rows_of_block,
+        blocks=scenes.block_count,
+        of_rows=scenes.rows_of_block,
     message:
         "Scene {wildcards.scene}, block {wildcards.block} of its design, {params.of_rows} rows"
     script:
-        "../scripts/job.py"
+        "../scripts/design_block.py"
 
 
 rule design:
     input:
-        code=code_of("workflow.jobs.many"),
-        rom=rom_of_scene,
-        settings=settings_of_scene,
-        table=table_of_design,
-        blocks=lambda wildcards: expand(
-            "results/{{blade}}/{{scene}}/design-block-{block}.json", block=blocks(wildcards)
-        ),
+        code=code_of("design"),
+        rom=scenes.rom,
+        settings=scenes.settings,
+        table=scenes.table,
+        blocks=scenes.of_blocks("results/{blade}/{scene}/design-block-{block}.json"),
     output:
         runs="results/{blade}/{scene}/design-runs.nc",
         rows="results/{blade}/{scene}/design-rows.nc",
@@ -140,24 +129,23 @@ rule design:
     benchmark:
         "results/{blade}/{scene}/benchmarks/design.tsv"
     params:
-        run="workflow.jobs.many:tables",
-        contents=contents_of_scene,
-        scene=settings_told,
-        file=lambda wildcards: scene_file(wildcards.scene),
+        contents=scenes.contents,
+        scene=scenes.told,
+        file=scenes.file,
         folder="results/{blade}/{scene}/rows",
     message:
         "Design of scene {wildcards.scene}: tables of its runs and rows"
     script:
-        "../scripts/job.py"
+        "../scripts/design.py"
 
 
 rule design_row:
     input:
-        code=code_of("workflow.jobs.many"),
-        rom=of_row(rom_of_scene, "rom"),
-        check=ancient(of_row(check_of_scene, "rom-check", FOREIGN)),
-        settings=settings_of_scene,
-        table=table_of_design,
+        code=code_of("design_row"),
+        rom=scenes.of_row(scenes.rom, "rom"),
+        check=ancient(scenes.of_row(scenes.check, "rom-check", blades.foreign)),
+        settings=scenes.settings,
+        table=scenes.table,
     output:
         sweep="results/{blade}/{scene}/row-{row}.nc",
     log:
@@ -165,17 +153,35 @@ rule design_row:
     benchmark:
         "results/{blade}/{scene}/benchmarks/row-{row}.tsv"
     params:
-        run="workflow.jobs.many:row",
-        contents=contents_of_scene,
-        scene=settings_told,
-        file=lambda wildcards: scene_file(wildcards.scene),
+        contents=scenes.contents,
+        scene=scenes.told,
+        file=scenes.file,
     message:
         "Scene {wildcards.scene}, row {wildcards.row} of its design as a sweep"
     script:
-        "../scripts/job.py"
+        "../scripts/design_row.py"
+
+
+rule design_csv:
+    input:
+        rows="results/{blade}/{scene}/design-rows.nc",
+        code=code_of("design_csv"),
+    output:
+        csv="results/{blade}/{scene}/design.csv",
+    log:
+        "results/{blade}/{scene}/logs/design.csv.log",
+    benchmark:
+        "results/{blade}/{scene}/benchmarks/design.csv.tsv"
+    localrule: True
+    params:
+        blade=blades.file,
+    message:
+        "Design of scene {wildcards.scene}: its rows as CSV"
+    script:
+        "../scripts/design_csv.py"
 
 
 rule sweeps:
     input:
-        of_scenes("results/{blade}/{scene}/sweep.nc"),
-        of_designs(),
+        project.of_sweeps("results/{blade}/{scene}/sweep.nc"),
+        project.tables_of_designs(),

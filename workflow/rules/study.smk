@@ -17,3 +17,42 @@ for target, files in STUDIES.items():
             target
         input:
             files,
+
+
+rule mesh_error:
+    # also for scenes with an accuracy
+    input:
+        full="results/{blade}/full-model.nc",
+        source=blades.source,
+        code=code_of("mesh_error"),
+    output:
+        json="results/{blade}/mesh-error.json",
+    log:
+        "results/{blade}/logs/mesh-error.log",
+    benchmark:
+        "results/{blade}/benchmarks/mesh-error.tsv"
+    params:
+        contents=blades.contents,
+        blade=blades.file,
+    message:
+        "Blade {wildcards.blade}: error of its mesh, from a coarser one"
+    script:
+        "../scripts/mesh_error.py"
+
+
+rule interface:
+    input:
+        changes="results/experiments/interface/table.json",
+        models="results/experiments/interface-models/table.json",
+        code=code_of("interface"),
+    output:
+        markdown="results/interface/interface.md",
+    log:
+        "results/interface/logs/interface.md.log",
+    benchmark:
+        "results/interface/benchmarks/interface.md.tsv"
+    localrule: True
+    message:
+        "Changes with mesh, patches, strips and modes"
+    script:
+        "../scripts/interface.py"

@@ -1,12 +1,12 @@
 # Answers at the peaks of each scene, and the summary of all of them.
 rule answers:
     input:
-        code=code_of("workflow.jobs.answers"),
-        rom=rom_of_scene,
-        check=check_of_scene,
-        mesh_error=known_mesh_error,
-        start=sweep_before,
-        stress=stress_of_scene,
+        code=code_of("answers"),
+        rom=scenes.rom,
+        check=scenes.check,
+        mesh_error=blades.mesh_error,
+        start=scenes.start,
+        stress=scenes.stress,
         sweep="results/{blade}/{scene}/sweep.nc",
     output:
         json="results/{blade}/{scene}/answers.json",
@@ -15,20 +15,19 @@ rule answers:
     benchmark:
         "results/{blade}/{scene}/benchmarks/answers.tsv"
     params:
-        run="workflow.jobs.answers:find",
-        contents=contents_of_scene,
+        contents=scenes.contents,
     message:
         "Peaks of scene {wildcards.scene}: force, torque, wear, and their uncertainty"
     script:
-        "../scripts/job.py"
+        "../scripts/answers.py"
 
 
 rule summary:
     input:
-        answers=of_scenes("results/{blade}/{scene}/answers.json"),
-        roms=[f"results/{scene.blade}/rom-{scene.directions}.nc" for scene in SWEEPS.values()],
-        stress=[f"results/{SCENES[name].blade}/{name}/stress.json" for name in STRESSED],
-        code=code_of("workflow.summary"),
+        answers=project.of_sweeps("results/{blade}/{scene}/answers.json"),
+        roms=project.of_sweeps("results/{blade}/rom-{directions}.nc"),
+        stress=[f"results/{scenes[name].blade}/{name}/stress.json" for name in project.stressed],
+        code=code_of("summary"),
     output:
         json="results/summary.json",
         csv="results/summary.csv",
@@ -43,15 +42,12 @@ rule summary:
         "results/logs/summary.log",
     localrule: True
     params:
-        run="workflow.summary:numbers",
-        given=lambda wildcards: {
-            "operating": {blade: operating_of(blade) for blade in BLADES},
-            "others": others_with_results(),
-        },
+        operating={blade: project.operating(blade) for blade in project.delivered_blades},
+        others=project.others_with_results(),
     message:
         "Summary of the run"
     script:
-        "../scripts/job.py"
+        "../scripts/summary.py"
 
 
 # Where tables of designs and the summary were among what was asked for, they are the last that the terminal shows.

@@ -1,5 +1,8 @@
 """Jobs of all rules: a function is called, its output goes to the rule's log.
 
+Each rule has a script beside this module, which says what is called; its jobs run again when that
+changes, and when a module of the project does that it imports, but not when this one changes.
+
 Errors for users also go to the terminal. Where it is one, it also shows how far the work is.
 """
 
@@ -8,12 +11,10 @@ import os
 import subprocess
 import sys
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
-from importlib import import_module
 from time import monotonic
-from types import ModuleType
-from typing import Any, get_type_hints
+from typing import Any
 
 from geometry.base import (
     WARNING,
@@ -26,14 +27,11 @@ from geometry.base import (
     write_json,
     write_whole,
 )
-from workflow.job_arguments import argument
 from workflow.job_cost import cpu_time, usage
 
 CLEARED = "\r\x1b[2K"  # the line of a terminal, and the cursor at its beginning
 PAUSE = 5.0  # s, least time between two lines of progress on the terminal
 NAMED = 4  # most inputs in a sentence
-# function of a text, by its output
-TEXTS = {"markdown": "table", "html": "html", "csv": "csv", "margins": "margins_csv"}
 # Waits for the end of a job, and says so where it ends without a word to it.
 WATCH = """
 read -r ended && exit
@@ -44,42 +42,24 @@ fi >&2
 """
 
 
-def run(snakemake: Any) -> None:
-    """Call the function that the rule names as ``module:function`` in ``params.run``.
+def job(
+    snakemake: Any, call: Callable[[Any, "Teller"], Any], **texts: Callable[[Any], str]
+) -> None:
+    """Do the job of a rule.
 
-    It gets those of its arguments that the rule holds, by name and as their types ask for
-    (``argument``): input files, output files, parameters, and those in ``params.given``;
-    ``files``, all inputs; ``names``, the wildcards; ``tell`` and ``report``, which report progress.
-    Its result is written.
+    Parameters
+    ----------
+    snakemake : what Snakemake gives a script: its input, output, params and wildcards
+    call : the work, from that and from what reports progress to a result
+    **texts : functions of the result, by the output that has their text; the output ``json`` has
+        the result itself
     """
-    name, _, function = snakemake.params.run.partition(":")
-    module = import_module(name)
-    call = getattr(module, function)
     with stage(snakemake) as tell:
-        held = {
-            "files": snakemake.input,
-            "names": dict(snakemake.wildcards.items()),
-            "tell": tell,
-            **dict(snakemake.input.items()),
-            **dict(snakemake.output.items()),
-            **dict(snakemake.params.items()),
-            "report": tell.report,
-            **snakemake.params.get("given", {}),
-        }
-        kinds = get_type_hints(call, include_extras=True)
-        asked = {name: argument(kind, held[name]) for name, kind in kinds.items() if name in held}
-        result = call(**asked)
-        if result is not None:
-            _write(result, dict(snakemake.output.items()), module)
-
-
-def _write(result: Any, outputs: Mapping[str, str], module: ModuleType) -> None:
-    """Write JSON and the texts that ``module`` makes of it; without JSON, the text itself."""
-    if "json" in outputs:
-        write_json(result, outputs["json"])
-    for kind in TEXTS.keys() & outputs.keys():
-        text = getattr(module, TEXTS[kind])(result) if "json" in outputs else result
-        write_whole(text, outputs[kind])
+        result, outputs = call(snakemake, tell), dict(snakemake.output.items())
+        if "json" in outputs:
+            write_json(result, outputs["json"])
+        for name, text in texts.items():
+            write_whole(text(result), outputs[name])
 
 
 class Teller:

@@ -18,29 +18,30 @@ COARSER = sqrt(2)  # element size of the coarser mesh over the blade's
 ORDER = 1.7  # of the compliance of patches; frequencies converge faster, with order 3 to 4
 
 
-def numbers(files: Any, blade: str) -> dict[str, Any]:
+def numbers(blade: str, full: str, source: str) -> dict[str, Any]:
     """Relative error of the blade's mesh, the larger of those of frequencies and compliances.
 
     Both are of order ``ORDER`` at least in the element size, so that they follow from the
     difference from a mesh coarser by ``COARSER`` (Roache 1994). ``blade``: YAML file of the blade;
-    ``files.full``: its full model. Without a coarser mesh they are None, and `why` says why.
+    ``full``: its full model; ``source``: the file of its geometry, if any. Without a coarser mesh
+    they are None, and `why` says why.
     """
-    settings, full = Blade.load(blade), FullModel.load(files.full)
+    settings, model = Blade.load(blade), FullModel.load(full)
     size = COARSER * settings.mesh.element_size_mm
     about = {
-        "mesh": full.provenance.mesh,
+        "mesh": model.provenance.mesh,
         "element_size_mm": settings.mesh.element_size_mm,
         "coarser_mm": size,
     }
     try:
-        fom = remeshed(settings.but(mesh__element_size_mm=size), getattr(files, "source", None))
+        fom = remeshed(settings.but(mesh__element_size_mm=size), source or None)
     except UserError as error:
         unknown = dict.fromkeys(("error", "frequencies", "compliance"))
         return about | unknown | {"why": str(error)}
     other, times = solve(fom, fom.states()), COARSER**ORDER - 1
-    frequencies = np.abs(other.omega[0] / full.omega[0] - 1).max() / times
+    frequencies = np.abs(other.omega[0] / model.omega[0] - 1).max() / times
     own, finer = (
-        compliance_of_strips(of.compliance[0][::3, ::3], fom.across) for of in (other, full)
+        compliance_of_strips(of.compliance[0][::3, ::3], fom.across) for of in (other, model)
     )
     compliance = np.abs(own / finer - 1).max() / times
     return about | {
