@@ -44,6 +44,7 @@ from simulate.errors.neighbour import CHAOTIC, ONE_MOTION, TWO_MOTIONS, Neighbou
 from simulate.errors.neighbours import ITSELF, TWIN, raised
 from simulate.errors.observables import Numbers, numbers
 from simulate.errors.run import Case, Run, as_long
+from simulate.errors.schema import CONTACT, MOTION, STRESS, of_peaks
 from simulate.marching import SENSITIVE_FROM, WITH_RESULT, prepare
 from simulate.marching.states import every
 from simulate.scene import LEADING, OF_LAST_ROUNDS, Scene
@@ -52,15 +53,6 @@ from simulate.sweeps.continued import before
 from simulate.sweeps.dataset import checks, course, scene_of, statuses
 from simulate.sweeps.peak import Peak, Responses, along_order, reported, rise
 
-OF_MOTION = {
-    name: name
-    for name in ("amplitude", "displacement", "displacement_last", "u_t_leading", "u_t_trailing")
-}
-OF_CONTACT = {  # numbers of a peak by their name in files, and that in ``NUMBERS``
-    **{name: name for name in ("wear", "worn_volume", "opening", "force_peak", "torque")},
-    "force": "force_mean",
-}
-OF_STRESS = {"mean_stress", "alternating", "margin", "damage"}  # numbers of a peak
 JUMP_FROM = 0.05  # relative change between two models from which a jump is looked for
 LAST = 3e-3  # relative, of frequencies: the last digits of a model; a usual damping ratio
 HALVINGS = 4  # of their difference: the change of a steep number falls to some sixteenth
@@ -362,9 +354,13 @@ def at_peak(case: Case, peak: Peak, stress: NodeStress | None = None) -> Numbers
     if run.outcome.status not in WITH_RESULT:
         return {}
     values = numbers(run, peak.k, peak.place if peak.k else None)
-    names = OF_MOTION | (OF_CONTACT if case.scene.liner.law.touches else {})
-    of_motion = {name: values[key] for name, key in names.items() if key in values}
-    return of_motion | (stress_of(run, stress) if stress else {})
+    kinds = {MOTION, *[CONTACT] * case.scene.liner.law.touches}
+    told = {
+        name: values[one.name]
+        for name, one in of_peaks().items()
+        if one.peak in kinds and one.name in values
+    }
+    return told | (stress_of(run, stress) if stress else {})
 
 
 def at_node(stress: Mapping[str, Any], speed: int) -> NodeStress | None:
@@ -457,7 +453,8 @@ def largest(changes: Numbers) -> float:
 
     Those of stress follow them, some steeply.
     """
-    of_motion = (size for name, size in changes.items() if name not in OF_STRESS)
+    known = of_peaks()
+    of_motion = (size for name, size in changes.items() if known[name].peak != STRESS)
     return max(of_motion, default=0.0)
 
 
