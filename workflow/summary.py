@@ -183,8 +183,7 @@ def _row(results: Mapping[str, Any], peak: "Peak", stress: Mapping[str, Any]) ->
     ``stress``: that of its speed, empty where it is not known.
     """
     f1, k, over_f1 = results["f1_Hz"], peak.k, peak.Omega_c
-    of_stress = (*stress_told.STRESS, *stress_told.COUNTS)
-    values = peak.numbers | {name: stress[name] for name in of_stress if name in stress}
+    values = peak.numbers | {name: stress[name] for name in of_peaks() if name in stress}
     unexplained = NO_CROSSING * bool(k and not peak.modes)
     return {
         "k": k,  # engine order, or f / Omega of a line on none; None without a peak

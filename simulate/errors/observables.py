@@ -18,9 +18,8 @@ from geometry.tip import JUDGED
 from simulate.contact.places import by_share
 from simulate.errors.run import Run
 from simulate.errors.schema import of_runs
-from simulate.loads import mean_force, mean_opening, torque_of_rounds, worn_volume
 from simulate.marching import WITH_RESULT
-from simulate.signals import amplitude, lobe_count, on_rods, spectrum
+from simulate.signals import amplitude, on_rods, spectrum
 
 # smaller root mean squares count as these in relative differences: m, but N for forces
 LEAST = {"spectrum": 1e-9, "wear": 1e-9, "history": 1e-9, "states": 1e-9, "force_peak": 1e-2}
@@ -131,11 +130,6 @@ class Readings(Run):
         bins = last_spectrum(self, self.place)
         return float(amplitude(bins, self.scene.record.rounds_of_spectrum, self.k))
 
-    @property
-    def u_t(self) -> list[float]:
-        """Half the range of u_t (2,), m, at both edges of a casing that tapers."""
-        return self.outcome.u_t.tolist() or [nan, nan]
-
     @cached_property
     def wear(self) -> NDArray[np.float32]:
         """Worn depth (m, nu), m."""
@@ -147,32 +141,9 @@ class Readings(Run):
         return by_share(self.wear, self.outcome.ends)[0]
 
     @property
-    def lobes(self) -> int:
-        """Worn lobes of that."""
-        return lobe_count(self.profile)
-
-    @property
-    def worn_volume(self) -> float:
-        """Volume worn off the liner, m3."""
-        return float(worn_volume(self.wear, self.setup.places.width, self.setup.places.radius))
-
-    @property
-    def opening(self) -> float:
-        """Mean worn depth, m, over the area that the tip sweeps."""
-        return float(mean_opening(self.wear, self.setup.places.width, self.setup.places.radius))
-
-    @property
-    def force(self) -> list[float]:
-        """Normal and tangential force (2,), N, on the whole chord, means over the revolutions."""
-        of = self.outcome
-        return [float(mean_force(shares)) for shares in (of.force_mean, of.force_tangential_mean)]
-
-    @property
-    def torque(self) -> float:
-        """Mean torque on the rotor, N m."""
-        if self.scene.no_torque is not None:
-            return nan
-        return float(np.nanmean(torque_of_rounds(self.scene, self.rom, self.outcome)))
+    def strips(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Width and radius of the strips (m,), m."""
+        return self.setup.places.width, self.setup.places.radius
 
 
 def numbers(run: Run, k: float | None = None, place: float | None = None) -> Numbers:

@@ -6,9 +6,14 @@ legend of the summary. Light: Snakemake imports the summary, which has them.
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from math import nan
 from typing import TYPE_CHECKING
 
 import numpy as np
+
+from simulate.loads import mean_force, mean_opening, torque_of_rounds, worn_per_pass, worn_volume
+from simulate.scene import LEADING
+from simulate.signals import lobe_count
 
 if TYPE_CHECKING:  # it imports the compiler
     from simulate.errors.observables import Readings
@@ -98,7 +103,7 @@ QUANTITIES = (  # in the order of the columns
         name="u_t_leading",
         unit="m",
         meaning="half the range of u_t at xi = 1/16 in the last revolution",
-        of=lambda run: run.u_t[0],
+        of=lambda run: [*run.outcome.u_t, nan][0],
         peak=MOTION,
         head="u_t at 1/16 µm",
         shown=UM,
@@ -113,7 +118,7 @@ QUANTITIES = (  # in the order of the columns
         name="u_t_trailing",
         unit="m",
         meaning="half the range of u_t at xi = 15/16 in the last revolution",
-        of=lambda run: run.u_t[1],
+        of=lambda run: [*run.outcome.u_t, nan, nan][1],
         peak=MOTION,
         head="at 15/16 µm",
         shown=UM,
@@ -160,14 +165,14 @@ QUANTITIES = (  # in the order of the columns
         name="lobes",
         unit="1",
         meaning="worn lobes of the leading eighth",
-        of=lambda run: run.lobes,
+        of=lambda run: lobe_count(run.profile),
         design=np.int16,
     ),
     Quantity(
         name="worn_volume",
         unit="m3",
         meaning="volume worn off the liner",
-        of=lambda run: run.worn_volume,
+        of=lambda run: float(worn_volume(run.wear, *run.strips)),
         peak=CONTACT,
         head="worn mm³",
         shown=MM3,
@@ -177,7 +182,7 @@ QUANTITIES = (  # in the order of the columns
         name="opening",
         unit="m",
         meaning="mean worn depth, over the area that the tip sweeps",
-        of=lambda run: run.opening,
+        of=lambda run: float(mean_opening(run.wear, *run.strips)),
         peak=CONTACT,
         head="mean worn depth µm",
         shown=UM,
@@ -186,10 +191,27 @@ QUANTITIES = (  # in the order of the columns
         legend=("mean worn depth", "worn volume over the area that the tip sweeps"),
     ),
     Quantity(
+        name="worn_per_pass",
+        unit="m",
+        meaning="mean worn depth over the area that the tip sweeps, per whole revolution",
+        of=lambda run: worn_per_pass(run.outcome.each.worn, *run.strips),
+        peak=CONTACT,
+        head="worn µm per pass",
+        shown=("um per pass", 1e6),
+        loads=True,
+        goes_on=True,
+        legend=(
+            "worn per pass",
+            "incursion rate as rub rigs give it: depth worn off the area that the tip sweeps, over "
+            "the passages of the tip (one blade: revolutions) of the whole run; what still wears "
+            "in the last quarter is under mm³/rev.",
+        ),
+    ),
+    Quantity(
         name="force_mean",
         unit="N",
         meaning="t_N on the chord, mean over the revolutions",
-        of=lambda run: run.force[0],
+        of=lambda run: float(mean_force(run.outcome.force_mean)),
         record="contact_force",
         design=np.float32,
         peak=CONTACT,
@@ -219,7 +241,7 @@ QUANTITIES = (  # in the order of the columns
         name="force_tangential_mean",
         unit="N",
         meaning="t_T on the chord, mean over the revolutions",
-        of=lambda run: run.force[1],
+        of=lambda run: float(mean_force(run.outcome.force_tangential_mean)),
         record="contact_force",
         design=np.float32,
     ),
@@ -227,13 +249,32 @@ QUANTITIES = (  # in the order of the columns
         name="torque",
         unit="N m",
         meaning="torque on the rotor, mean over the revolutions",
-        of=lambda run: run.torque,
+        of=lambda run: (
+            nan
+            if run.scene.no_torque is not None
+            else float(np.nanmean(torque_of_rounds(run.scene, run.rom, run.outcome)))
+        ),
         record="contact_force",
         peak=CONTACT,
         head="torque N m",
         shown=("N m", 1.0),
         loads=True,
         legend=("torque", "mean of the revolutions, against the rotation"),
+    ),
+    Quantity(
+        name="tip_speed",
+        unit="m s-1",
+        meaning="Omega times the radius of the tip at xi = 1/16",
+        of=lambda run: float(run.setup.Omega * run.rom.line(np.array([LEADING]))[0, 0]),
+        peak=MOTION,
+        exact=True,
+        head="tip m/s",
+        shown=("m/s", 1.0),
+        loads=True,
+        legend=(
+            "tip m/s",
+            "speed of the tip, Ω times its radius at ξ = 1/16; it is known as well as the rpm",
+        ),
     ),
     Quantity(
         name="mean_stress",

@@ -304,6 +304,7 @@ def _with_errors(
             name: abs(value)
             * hypot(*filter(isfinite, (part.get(name, 0.0) for part in parts.values())))
             for name, value in first.items()
+            if name in parts["twin"]  # no exact one
         },
         # of the run that differs most from the first
         other=max(both, key=lambda side: largest(change(first, side)), default={}),
@@ -431,12 +432,13 @@ def _of_other_fineness(
 def change(one: Numbers, *others: Numbers) -> Numbers:
     """Relative change of each number, over the larger; inf where one alone has it.
 
-    The largest of those to the ``others``.
+    But for those that are exact. The largest of those to the ``others``.
 
     >>> change({"amplitude": 1.0, "wear": 2.0}, {"amplitude": 2.0, "wear": 2.0})
     {'amplitude': 0.5, 'wear': 0.0}
     """
-    names = dict.fromkeys(chain(one, *others))
+    exact = {name for name, known in of_peaks().items() if known.exact}
+    names = [name for name in dict.fromkeys(chain(one, *others)) if name not in exact]
     return {
         name: max(_change(one.get(name), other.get(name)) for other in others) for name in names
     }

@@ -4,8 +4,8 @@ from runs import set_up
 from scenes import RUBBING, of_steps, scene
 
 from simulate.errors.observables import numbers
-from simulate.errors.schema import QUANTITIES
 from simulate.errors.run import Case
+from simulate.errors.schema import QUANTITIES
 from simulate.signals import (
     amplitude,
     blurred,
