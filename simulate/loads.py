@@ -9,15 +9,19 @@ their last step. Friction adds its moment. With a profile but no tangential forc
 harmonics of the casing that travel, which do work of their own, the model has no torque.
 """
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from numpy.typing import NDArray
 
 from geometry.hats import middles
-from rom.model import Rom
 from simulate.contact.places import volume_of
-from simulate.marching import Outcome
 from simulate.scene import Scene
 from simulate.signals import filled
+
+if TYPE_CHECKING:  # slow imports, which Snakemake does without
+    from rom.model import Rom
+    from simulate.marching import Outcome
 
 FULL_TURN = 2 * np.pi
 
@@ -33,7 +37,7 @@ def torque(casing_work: NDArray[np.float64], rounds: float = 1.0) -> NDArray[np.
     return np.asarray(casing_work) / FULL_TURN / rounds
 
 
-def torque_of_rounds(scene: Scene, rom: Rom, outcome: Outcome) -> NDArray[np.float64]:
+def torque_of_rounds(scene: Scene, rom: "Rom", outcome: "Outcome") -> NDArray[np.float64]:
     """Mean torque (revolutions,), N m, in each revolution of a run; nan where not computed.
 
     With a tangential force or friction the forces must have been recorded.
@@ -45,7 +49,7 @@ def torque_of_rounds(scene: Scene, rom: Rom, outcome: Outcome) -> NDArray[np.flo
     return of_work if scene.contact.friction is None else of_work + moment
 
 
-def tangential_moment(on_shares: NDArray[np.float64], rom: Rom) -> NDArray[np.float64]:
+def tangential_moment(on_shares: NDArray[np.float64], rom: "Rom") -> NDArray[np.float64]:
     """Moment (...,), N m, of tangential forces (..., shares), N, on equal parts of the chord."""
     radius, _, _ = rom.line(middles(on_shares.shape[-1])).T
     return on_shares @ radius
@@ -73,6 +77,21 @@ def mean_opening(
     As of ``worn_volume``.
     """
     return worn_volume(wear, width, radius) / (FULL_TURN * width @ radius)
+
+
+def worn_per_pass(
+    worn: NDArray[np.float64], width: NDArray[np.float64], radius: NDArray[np.float64]
+) -> float:
+    """Mean depth, m, by which a passage of the tip opens the clearance: of whole revolutions.
+
+    ``worn`` (revolutions,), m3: volume worn in each; nan in those that did not end. 0 without any.
+
+    >>> worn = np.array([3e-6, 1e-6, np.nan])  # of an area of 0.1 m2
+    >>> round(worn_per_pass(worn, np.array([0.05]), np.array([1 / np.pi])), 12)
+    2e-05
+    """
+    whole = worn[np.isfinite(worn)]
+    return float(whole.sum() / max(len(whole), 1) / (FULL_TURN * width @ radius))
 
 
 def mean_force(on_shares: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -7,17 +7,16 @@ Light: Snakemake imports the summary, which has these lines. ``stress``: as of
 from collections.abc import Mapping
 from typing import Any
 
+from simulate.errors.schema import of_peaks
 from simulate.scene import GROWING
 from workflow.markdown import Number, percent
 
 STRESS = ("mean_stress", "alternating", "margin")  # numbers of ``stress.json``, there too
-COUNTS = ("cycles", "endurance_s")  # those of its cycles, which have no uncertainty
 ALL = "all"  # of what is not known: of all numbers
 RISES = "↑"
 STANDS_OUT = 1.25  # alternating stress of a node over the largest around it: no smooth field
 EARLIER = 1.005  # largest change between any two instants over that of one revolution: it is told
 NEARLY = 0.05  # of the swing, which a growing motion gains in as many revolutions again
-MPA = 1e-6
 
 
 def bound(name: str, trend: str | None) -> str:
@@ -84,7 +83,7 @@ def shown(row: Mapping[str, Any], name: str) -> str:
 
 def _number(row: Mapping[str, Any], name: str, answer: Any) -> tuple[str, str]:
     """The number and its ±; without an ``answer`` that by the mesh is known alone."""
-    scale = 1.0 if name == "margin" else MPA
+    _, scale = of_peaks()[name].shown
     errors, unknown = (answer["errors"], answer["unknown"]) if answer else ({}, {ALL: ["runs"]})
     error = errors.get(name, abs(row[name]) * row["mesh"][name])
     least = name not in errors or bool(unknown[ALL])

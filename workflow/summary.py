@@ -15,6 +15,7 @@ from geometry.blade import RPM_PER_HZ
 from geometry.tip import JUDGED
 from simulate.errors.model_errors import BEYOND
 from simulate.errors.neighbour import CHAOTIC, ONE_MOTION, TWO_MOTIONS
+from simulate.errors.schema import of_peaks
 from simulate.scene import DYING_OUT, GROWING, STEADY, TRENDS
 from simulate.sweeps.result_types import NO_CROSSING, numbers_of
 from workflow import margins, markdown, stress_told
@@ -44,67 +45,19 @@ class Column(NamedTuple):
 
 OVER_F1 = ("Ω_c / f₁(0)", "Ω_c / crossing")  # heads of ``over_gap``
 OVER_GAP = ("‖Y‖ / gap", "worn depth / gap")
-COLUMNS = (  # of the numbers of ``sweeps.peak_results``
-    Column("amplitude", "um", 1e6, "amplitude µm"),
-    Column("displacement", "um", 1e6, "largest µm"),
-    Column("displacement_last", "um", 1e6, "last µm"),
-    Column("u_t_leading", "um", 1e6, "u_t at 1/16 µm"),
-    Column("u_t_trailing", "um", 1e6, "at 15/16 µm"),
-    Column("second_order", "1", 1.0, "second order / gap"),
-    Column("wear", "um", 1e6, "wear µm"),
-    Column("worn_volume", "mm3", 1e9, "worn mm³"),
-    Column("opening", "um", 1e6, "mean worn depth µm"),
-    Column("force", "N", 1.0, "mean force N, whole chord"),
-    Column("force_peak", "N", 1.0, "peak force N, an eighth of it"),
-    Column("torque", "N m", 1.0, "torque N m"),
-    Column("mean_stress", "MPa", 1e-6, "mean stress MPa"),
-    Column("alternating", "MPa", 1e-6, "alternating MPa"),
-    Column("margin", "1", 1.0, "margin"),
-    Column("damage", "1", 1.0, "Miner's damage"),
-    Column("cycles", "1", 1.0, "cycles"),
-    Column("endurance_s", "s", 1.0, "s to 1e7"),
-)
 PLACES = dict(zip(JUDGED, ("", " at ξ = 15/16", " at ξ = 1/2"), strict=True))
-LOADS = {"opening", "force", "force_peak", "torque"}  # numbers of the second table
-# numbers that change further in a run that is not steady
-GO_ON = {
-    *("amplitude", "displacement_last", "u_t_leading", "u_t_trailing"),
-    *("wear", "worn_volume", "opening"),
-}
 AT_END = ("at the end", "τ rev.", "mm³/rev.")  # heads
-MEANING = {  # of the columns
-    "amplitude": "of the tip's radial displacement at ξ = 1/16, along the engine order EO, or of a "
-    "line on none along f/Ω, over the last revolutions of the run; at another place where it is "
-    "near a node there",
+WORDS = {  # in the tables, beside the numbers
     "mode": "that from whose linear crossing with the order the peak rises, or several whose "
     "crossings are near",
-    "largest": "largest |u_r| there in the whole run, and the revolution of it; last: the same in "
-    "the last revolution",
     "after so many revolutions": "not all motions in the column are steady then: their numbers, "
     "with their ±, are those after so many revolutions, not those of the motion that they go to",
     "at ξ = 15/16": "on a casing that tapers the motion is u_r - s u_z, s = dr/dz, at ξ = 1/16 or "
     "15/16, whichever moves more",
-    "u_t": "half the range of the tangential displacement in the last revolution, at both edges: "
-    "what blade tip timing measures",
-    "second order": "change of the tip's radius with the square of the largest displacement (a "
-    "blade that bends shortens), the larger of both edges, over the gap; contact does not know it",
     BEYOND: "it exceeds a tenth of the motion, or the tip moves along the axis by more than half a "
     "strip's width: to model it needs the square of the motion in the gap, and strips that the tip "
     "changes as it moves",
-    "wear": "deepest, mean over the leading eighth of the chord",
-    "mean worn depth": "worn volume over the area that the tip sweeps",
-    "mean force": "normal force on the whole chord, mean of the revolutions; peak force: the "
-    "largest on an eighth of it",
-    "torque": "mean of the revolutions, against the rotation",
-    "mean stress, alternating": "of the largest change of stress between two instants of a "
-    "revolution, the worst of the last one and of those that strain the blade most, at the node "
-    "away from clamp and contact with the least margin (without `fatigue` of the blade with the "
-    "largest alternating stress); of a growing motion the alternating stress is more (>)",
     stress_told.RISES: "the stress rises further, towards the part of the blade that is left out",
-    "margin": "factor by which the alternating stress may grow at that mean stress, to the "
-    "endurance at 1e7 cycles (strength: `fatigue` of the blade)",
-    "Miner's damage": "of the run, by rainflow and one slope of the S-N line (`fatigue.slope_k`)",
-    "cycles": "of the run; s to 1e7: time to so many at that speed",
     "±": "root of the sum of squares of the changes by a twin (gaps changed by 1e-10), by models "
     "with frequencies off by their known errors, by a model with half the patches, and by a run "
     "with twice the steps, rods and strips (the last two not with central differences, with "
@@ -230,8 +183,7 @@ def _row(results: Mapping[str, Any], peak: "Peak", stress: Mapping[str, Any]) ->
     ``stress``: that of its speed, empty where it is not known.
     """
     f1, k, over_f1 = results["f1_Hz"], peak.k, peak.Omega_c
-    of_stress = (*stress_told.STRESS, *stress_told.COUNTS)
-    values = peak.numbers | {name: stress[name] for name in of_stress if name in stress}
+    values = peak.numbers | {name: stress[name] for name in of_peaks() if name in stress}
     unexplained = NO_CROSSING * bool(k and not peak.modes)
     return {
         "k": k,  # engine order, or f / Omega of a line on none; None without a peak
@@ -316,13 +268,19 @@ def left_out(summary: Mapping[str, Any]) -> list[str]:
 
 def meaning() -> str:
     """Meaning of the columns and of the words in the rows, as a list."""
-    return "\n".join(f"- {name}: {text}." for name, text in MEANING.items())
+    of_numbers = (one.legend for one in of_peaks().values() if one.legend)
+    return "\n".join(f"- {name}: {text}." for name, text in [*of_numbers, *WORDS.items()])
 
 
 def known_columns(peaks: Iterable[Mapping[str, float]]) -> list[Column]:
     """Columns of the numbers that any of the peaks has."""
     names = set().union(*peaks)
-    return [column for column in COLUMNS if column.name in names]
+    return [column for column in all_columns() if column.name in names]
+
+
+def all_columns() -> list[Column]:
+    """Columns of all numbers of peaks."""
+    return [Column(name, *one.shown, one.head) for name, one in of_peaks().items() if one.head]
 
 
 def terminal(summary: Mapping[str, Any]) -> str:
@@ -377,15 +335,15 @@ def columns(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
 def shown(scene: Mapping[str, Any]) -> list[tuple[list[str], list[list[str]]]]:
     """Heads and rows of a scene's tables: motion and wear, then loads; without empty columns."""
     kept, rows = known_columns(row["values"] for row in scene["rows"]), scene["rows"]
-    second = {*LOADS, *stress_told.STRESS, *stress_told.COUNTS, "damage"}
+    known = of_peaks()
     motion, loads = (
-        [column for column in kept if (column.name in second) is among] for among in (False, True)
+        [column for column in kept if known[column.name].loads is among] for among in (False, True)
     )
     moving = (row["course"] for row in rows if row["course"].get("trend") != STEADY)
     most = max((ceil(course.get("rounds", 0)) for course in moving), default=0)
     # the revolutions after which numbers are told that change further
     after = f" after {most} revolutions" * (most > 0)
-    heads = {column: column.head + after * (column.name in GO_ON) for column in kept}
+    heads = {column: column.head + after * known[column.name].goes_on for column in kept}
     return [
         (
             ["EO", "mode", "rpm", *(heads[column] for column in motion), *AT_END, ""],
@@ -430,7 +388,7 @@ def _cell(row: PeakRow, column: Column) -> str:
     in_part = [*row["unknown"][ALL], *row["unknown"].get(column.name, [])]
     number = column.number(value, error, least=bool(in_part))
     further = "" if other is None else f" or {column.number(other, error).shown}"
-    if column.name in stress_told.COUNTS:
+    if of_peaks()[column.name].exact:
         return number.shown
     bound = stress_told.bound(column.name, row["course"].get("trend"))
     rises = f" {stress_told.RISES}" * bool(row["rises"] and column.name == "alternating")
@@ -598,7 +556,7 @@ def _record(scene: Mapping[str, Any], row: PeakRow) -> dict[str, Any]:
         "stress rises towards": row["rises"],
         **{
             f"{column.name}{what} ({column.unit})": _digits(row[key].get(column.name), column.scale)
-            for column in COLUMNS
+            for column in all_columns()
             for what, key in (("", "values"), (" +-", "errors"), (" other", "other"))
         },
     }

@@ -5,7 +5,10 @@ Numbers are single values: those of peaks, of the tables of designs and of studi
 """
 
 from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property
 from math import ceil, inf, isfinite, nan
+from typing import Any
 
 import numpy as np
 from numpy.linalg import norm
@@ -14,34 +17,15 @@ from numpy.typing import ArrayLike, NDArray
 from geometry.tip import JUDGED
 from simulate.contact.places import by_share
 from simulate.errors.run import Run
-from simulate.loads import mean_force, mean_opening, torque_of_rounds, worn_volume
+from simulate.errors.schema import of_runs
 from simulate.marching import WITH_RESULT
-from simulate.signals import amplitude, lobe_count, on_rods, spectrum
+from simulate.signals import amplitude, on_rods, spectrum
 
 # smaller root mean squares count as these in relative differences: m, but N for forces
 LEAST = {"spectrum": 1e-9, "wear": 1e-9, "history": 1e-9, "states": 1e-9, "force_peak": 1e-2}
 
 type Observables = dict[str, NDArray[np.float64]]
 type Numbers = dict[str, float]
-
-
-NUMBERS = {  # of a run: unit, meaning
-    "amplitude": ("m", "amplitude of u_r at xi = 1/16: along an engine order, or largest"),
-    "displacement": ("m", "largest |u_r| at xi = 1/16 of all revolutions"),
-    "displacement_last": ("m", "largest |u_r| at xi = 1/16 in the last revolution"),
-    "u_t_leading": ("m", "half the range of u_t at xi = 1/16 in the last revolution"),
-    "u_t_trailing": ("m", "half the range of u_t at xi = 15/16 in the last revolution"),
-    "wear": ("m", "deepest wear of the leading eighth of the chord (its mean)"),
-    "wear_mean": ("m", "wear there, mean around the casing"),
-    "wear_anywhere": ("m", "deepest wear of all rods"),
-    "lobes": ("1", "worn lobes of the leading eighth"),
-    "worn_volume": ("m3", "volume worn off the liner"),
-    "opening": ("m", "mean worn depth, over the area that the tip sweeps"),
-    "force_peak": ("N", "largest t_N on an eighth of the chord"),
-    "force_mean": ("N", "t_N on the chord, mean over the revolutions"),
-    "force_tangential_mean": ("N", "t_T on the chord, mean over the revolutions"),
-    "torque": ("N m", "torque on the rotor, mean over the revolutions"),
-}
 
 
 def observables(run: Run, samples: int | None = None, rods: int | None = None) -> Observables:
@@ -127,39 +111,50 @@ def last_spectrum(run: Run, place: float | None = None) -> NDArray[np.float32]:
     return spectrum(u_r[-samples:, at]).astype(np.float32)
 
 
-def numbers(run: Run, k: float | None = None, place: float | None = None) -> Numbers:
-    """The numbers of a run that it has recorded, in the units of ``NUMBERS``.
+@dataclass(frozen=True, kw_only=True)
+class Readings(Run):
+    """A run with what its numbers are read from; nan where it has none.
 
     ``k``: engine order of the amplitude, or f / Omega; without it the largest. ``place``: where, of
     ``JUDGED``, if it is not that of u_r. Wear is that of files, in single precision.
     """
-    result, record, outcome = {}, run.scene.record, run.outcome
-    if record.spectrum_rounds and outcome.status in WITH_RESULT:
-        bins = last_spectrum(run, place)
-        result["amplitude"] = float(amplitude(bins, record.spectrum_rounds, k))
-    if isfinite(largest := outcome.each.largest[0]):
-        result |= {"displacement": largest, "displacement_last": outcome.each.last}
-    result |= dict(zip(("u_t_leading", "u_t_trailing"), map(float, outcome.u_t), strict=False))
-    wear = outcome.wear.astype(np.float32)
-    where = wear, run.setup.places.width, run.setup.places.radius
-    profile = by_share(wear, outcome.ends)[0]
-    result |= {
-        "wear": float(profile.max()),
-        "wear_mean": float(profile.mean()),
-        "wear_anywhere": float(wear.max()),
-        "lobes": lobe_count(profile),
-        "worn_volume": float(worn_volume(*where)),
-        "opening": float(mean_opening(*where)),
-    }
-    return result | (_forces(run) if record.contact_force else {})
+
+    k: float | None = None
+    place: float | None = None
+
+    @property
+    def amplitude(self) -> float:
+        """Amplitude of u_r, m."""
+        if self.outcome.status not in WITH_RESULT:
+            return nan
+        bins = last_spectrum(self, self.place)
+        return float(amplitude(bins, self.scene.record.rounds_of_spectrum, self.k))
+
+    @cached_property
+    def wear(self) -> NDArray[np.float32]:
+        """Worn depth (m, nu), m."""
+        return self.outcome.wear.astype(np.float32)
+
+    @cached_property
+    def profile(self) -> NDArray[Any]:
+        """Mean worn depth (nu,), m, of the leading eighth of the chord."""
+        return by_share(self.wear, self.outcome.ends)[0]
+
+    @property
+    def strips(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Width and radius of the strips (m,), m."""
+        return self.setup.places.width, self.setup.places.radius
 
 
-def _forces(run: Run) -> Numbers:
-    outcome, has_torque = run.outcome, run.scene.no_torque is None
-    torque = torque_of_rounds(run.scene, run.rom, outcome) if has_torque else None
-    return {
-        "force_peak": float(np.nanmax(outcome.force_peak)),
-        "force_mean": float(mean_force(outcome.force_mean)),
-        "force_tangential_mean": float(mean_force(outcome.force_tangential_mean)),
-        **({} if torque is None else {"torque": float(np.nanmean(torque))}),
+def numbers(run: Run, k: float | None = None, place: float | None = None) -> Numbers:
+    """The numbers of a run that it has recorded, as ``schema`` defines them.
+
+    ``k``, ``place``: as of ``Readings``.
+    """
+    read = Readings(**vars(run), k=k, place=place)
+    values = {
+        name: one.of(read)
+        for name, one in of_runs().items()
+        if one.of and (not one.record or getattr(run.scene.record, one.record))
     }
+    return {name: value for name, value in values.items() if isfinite(value)}

@@ -33,8 +33,9 @@ from simulate.contact.gaps import given_gaps
 from simulate.contact.places import SHARES, closing_rows
 from simulate.errors.accuracy import Choice
 from simulate.errors.neighbours import GAP_CHANGE
-from simulate.errors.observables import NUMBERS, last_spectrum
+from simulate.errors.observables import last_spectrum
 from simulate.errors.run import Run
+from simulate.errors.schema import of_runs
 from simulate.loads import torque_of_rounds
 from simulate.marching import STATUSES, WITH_RESULT, FinalState, strip_stiffness
 from simulate.marching.friction import growth_rate, mu_crit
@@ -82,7 +83,7 @@ VARIABLES = {  # of each run: dimensions beside the speed, unit, meaning
         "1",
         "revolutions in which the mode that responds dies out to 1/e; nan if a run ended early",
     ),
-    "displacement": ("", *NUMBERS["displacement"]),
+    "displacement": ("", *of_runs()["displacement"].said),
     "largest_round": ("", "1", "number of the revolution of the displacement"),
     "place": ("", "1", "chord fraction, 1/16 or 15/16, that moves more: of u_r and its numbers"),
     "u_t": ("edge", "m", "half the range of u_t at 1/16 and 15/16 in the last revolution"),

@@ -44,6 +44,7 @@ from simulate.errors.neighbour import CHAOTIC, ONE_MOTION, TWO_MOTIONS, Neighbou
 from simulate.errors.neighbours import ITSELF, TWIN, raised
 from simulate.errors.observables import Numbers, numbers
 from simulate.errors.run import Case, Run, as_long
+from simulate.errors.schema import CONTACT, MOTION, STRESS, of_peaks
 from simulate.marching import SENSITIVE_FROM, WITH_RESULT, prepare
 from simulate.marching.states import every
 from simulate.scene import LEADING, OF_LAST_ROUNDS, Scene
@@ -52,15 +53,6 @@ from simulate.sweeps.continued import before
 from simulate.sweeps.dataset import checks, course, scene_of, statuses
 from simulate.sweeps.peak import Peak, Responses, peaks_or_largest, rise
 
-OF_MOTION = {
-    name: name
-    for name in ("amplitude", "displacement", "displacement_last", "u_t_leading", "u_t_trailing")
-}
-OF_CONTACT = {  # numbers of a peak by their name in files, and that in ``NUMBERS``
-    **{name: name for name in ("wear", "worn_volume", "opening", "force_peak", "torque")},
-    "force": "force_mean",
-}
-OF_STRESS = {"mean_stress", "alternating", "margin", "damage"}  # numbers of a peak
 JUMP_FROM = 0.05  # relative change between two models from which a jump is looked for
 LAST = 3e-3  # relative, of frequencies: the last digits of a model; a usual damping ratio
 HALVINGS = 4  # of their difference: the change of a steep number falls to some sixteenth
@@ -274,6 +266,7 @@ def _with_errors(
             name: abs(value)
             * hypot(*filter(isfinite, (part.get(name, 0.0) for part in parts.values())))
             for name, value in first.items()
+            if name in parts["twin"]  # no exact one
         },
         # of the run that differs most from the first
         other=max(both, key=lambda side: largest(change(first, side)), default={}),
@@ -361,9 +354,13 @@ def at_peak(case: Case, peak: Peak, stress: NodeStress | None = None) -> Numbers
     if run.outcome.status not in WITH_RESULT:
         return {}
     values = numbers(run, peak.k, peak.place if peak.k else None)
-    names = OF_MOTION | (OF_CONTACT if case.scene.liner.law.touches else {})
-    of_motion = {name: values[key] for name, key in names.items() if key in values}
-    return of_motion | (stress_of(run, stress) if stress else {})
+    kinds = {MOTION, *[CONTACT] * case.scene.liner.law.touches}
+    told = {
+        name: values[one.name]
+        for name, one in of_peaks().items()
+        if one.peak in kinds and one.name in values
+    }
+    return told | (stress_of(run, stress) if stress else {})
 
 
 def at_node(stress: Mapping[str, Any], speed: int) -> NodeStress | None:
@@ -434,12 +431,13 @@ def _of_other_fineness(
 def change(one: Numbers, *others: Numbers) -> Numbers:
     """Relative change of each number, over the larger; inf where one alone has it.
 
-    The largest of those to the ``others``.
+    But for those that are exact. The largest of those to the ``others``.
 
     >>> change({"amplitude": 1.0, "wear": 2.0}, {"amplitude": 2.0, "wear": 2.0})
     {'amplitude': 0.5, 'wear': 0.0}
     """
-    names = dict.fromkeys(chain(one, *others))
+    exact = {name for name, known in of_peaks().items() if known.exact}
+    names = [name for name in dict.fromkeys(chain(one, *others)) if name not in exact]
     return {
         name: max(_change(one.get(name), other.get(name)) for other in others) for name in names
     }
@@ -456,7 +454,8 @@ def largest(changes: Numbers) -> float:
 
     Those of stress follow them, some steeply.
     """
-    of_motion = (size for name, size in changes.items() if name not in OF_STRESS)
+    known = of_peaks()
+    of_motion = (size for name, size in changes.items() if known[name].peak != STRESS)
     return max(of_motion, default=0.0)
 
 

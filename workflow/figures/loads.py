@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from rom.model import Rom
 from simulate.contact.gaps import given_gaps
+from simulate.errors.schema import of_peaks
 from simulate.loads import mean_force, mean_opening, torque, worn_volume
 from simulate.scene import LEADING, TRAILING
 from simulate.signals import gaps_at_ends
@@ -25,7 +26,6 @@ LOOKS = (  # of scenes, or of places on the chord, distinct without colour
     {"color": style.GREEN, "linestyle": "-."},
 )
 MARKERS = "osD^"
-CUBIC_MM, MPA = 1e9, 1e-6
 
 
 class Loads(NamedTuple):
@@ -88,12 +88,12 @@ def loads_of(
     )
 
 
-PANELS = (  # number, label, scale
-    ("force", "normal\nforce (N)", 1.0),
-    ("torque", "torque\n(N m)", 1.0),
-    ("worn_volume", "worn\nvolume (mm³)", CUBIC_MM),
-    ("alternating", "alternating\nstress (MPa)", MPA),
-)
+PANELS = {  # number, label
+    "force": "normal\nforce",
+    "torque": "torque\n",
+    "worn_volume": "worn\nvolume",
+    "alternating": "alternating\nstress",
+}
 
 
 @style.styled
@@ -102,17 +102,18 @@ def panels(
 ) -> Figure:
     """A panel for each number that is known, lines over the speed, and the peaks with their ±."""
     numbers = [of for scene in loads for of in (scene.lines, *(p.numbers for p in scene.peaks))]
-    shown = [panel for panel in PANELS if any(panel[0] in of for of in numbers)]
+    shown = [name for name in PANELS if any(name in of for of in numbers)]
     drawn, grid = style.subplots(
         style.DOUBLE, 1.2 + 1.25 * len(shown), len(shown), letters=True, sharex=True, squeeze=False
     )
     used = grid[:, 0]
-    for axes, (name, label, scale) in zip(used, shown, strict=True):
+    for axes, name in zip(used, shown, strict=True):
+        unit, scale = of_peaks()[name].shown
         for number, scene in enumerate(loads):
             _draw(axes, scene, name, scale, number)
-        axes.set(ylabel=label, ylim=(0, None))
+        axes.set(ylabel=f"{PANELS[name]} ({unit})".replace("\n ", "\n"), ylim=(0, None))
         if name == "worn_volume":
-            per_mm3 = units.MICRO / CUBIC_MM * loads[0].opening_per_volume
+            per_mm3 = units.MICRO / scale * loads[0].opening_per_volume
             style.beside(axes, per_mm3, "mean worn depth (µm)")
         if name == "torque":
             unknown = [f"not known of {of.name}: {of.no_torque}" for of in loads if of.no_torque]

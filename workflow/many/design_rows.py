@@ -12,8 +12,9 @@ from geometry.blade import ORDERS
 from rom.model import Rom
 from simulate.contact.gaps import given_gaps
 from simulate.errors.checked import checked
-from simulate.errors.observables import NUMBERS, last_spectrum, numbers as numbers_of
+from simulate.errors.observables import last_spectrum, numbers as numbers_of
 from simulate.errors.run import Run
+from simulate.errors.schema import of_runs
 from simulate.marching import STATUSES, WITH_RESULT, check_scene
 from simulate.scene import LEADING, TRENDS, Scene
 from simulate.signals import amplitude
@@ -32,9 +33,6 @@ def _flags(words: Sequence[str]) -> dict[str, Any]:
 
 
 SINGLE = np.float32
-LEADING_WEAR = ("wear", "wear_mean", "wear_anywhere")
-FORCES = ("force_peak", "force_mean", "force_tangential_mean")
-UNKNOWN = "; nan without record.contact_force"
 COLUMNS = {  # numbers of each run: type, unit, meaning
     "speed": (np.float64, "rad s-1", "rotational speed Omega"),
     "speed_over_f1": (np.float64, "1", "Omega over f1(0)"),
@@ -42,14 +40,11 @@ COLUMNS = {  # numbers of each run: type, unit, meaning
     "rounds": (SINGLE, "1", "revolutions computed"),
     "trend": (np.int8, "1", "whether the motion is steady at the end", _flags(TRENDS)),
     "time_constant": (SINGLE, "1", "revolutions in which the mode that responds dies out to 1/e"),
-    "displacement": (SINGLE, *NUMBERS["displacement"]),
     "largest_round": (SINGLE, "1", "number of the revolution of the displacement"),
     "end_xi": (SINGLE, "1", "chord fraction where a run ended early; else nan"),
     "f1": (SINGLE, "1", "f1(Omega) over f1(0)"),
     "amplitude": (SINGLE, "m", "largest amplitude of u_r at xi = 1/16; nan without spectrum"),
-    **{name: (SINGLE, *NUMBERS[name]) for name in LEADING_WEAR},
-    "lobes": (np.int16, *NUMBERS["lobes"]),
-    **{name: (SINGLE, NUMBERS[name][0], NUMBERS[name][1] + UNKNOWN) for name in FORCES},
+    **{name: (one.design, *one.said) for name, one in of_runs().items() if one.design},
     "contact_share": (SINGLE, "1", "steps with contact over all steps"),
     "casing_work": (SINGLE, "J", "work of the casing on the rods"),
     "numerical": (SINGLE, "J", "energy created (> 0) or lost (< 0) by the scheme"),
