@@ -193,7 +193,7 @@ def judge_case(case: Case, rom: Rom) -> End:
 def _refusal(run: Run, halving: bool) -> Verdict | None:
     """Refusal of the step of a run; None where it is not too long."""
     try:
-        check_resolution(run.scene.but(halving=halving), run.setup)
+        check_resolution(run.setup, run.scene.record.samples_per_round, halving)
     except SceneError as error:
         return _refused(error)
     return None
