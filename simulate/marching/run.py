@@ -247,7 +247,7 @@ def march(scene: Scene, setup: Setup, start: FinalState | Worn | None = None) ->
         time_constant=tau,
         trend=words[-1],
         final=final_state(state, setup, first + done) if wanted and end == RUNNING else None,
-        reason=why_no_contact(scene, strips, state.eps_p, first + done)
+        reason=why_no_contact(scene, setup, state.eps_p, first + done)
         if status == "no-contact"
         else "",
     )

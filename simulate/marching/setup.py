@@ -94,45 +94,44 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
         start.
     """
     integrator, contact, zeta = scene.stepping, scene.contact, scene.damping_ratio
-    gaps = scene.gaps
+    liner, casing, gaps = scene.liner, scene.casing, scene.gaps
     omega, Phi = rom.modes(Omega)
-    places, leans = strip_places(rom, scene.liner, scene.casing), rom.across == 2
-    Phi_b = closing_rows(rom, scene.casing, places.xi) @ Phi
+    places, leans = strip_places(rom, liner, casing), rom.across == 2
+    stiffness = strip_stiffness(liner, places)
+    Phi_b = closing_rows(rom, casing, places.xi) @ Phi
     Phi_t = rom.rows(places.xi, "t") @ Phi if contact.along else Phi[:0]
-    Phi_lean = closing_rows(rom, scene.casing, places.xi, leans) @ Phi if leans else Phi[:0]
+    Phi_lean = closing_rows(rom, casing, places.xi, leans) @ Phi if leans else Phi[:0]
     along = Phi_t if contact.tangential else Phi[:0]  # with friction as without
-    limit = _limit(scene.liner, contact, zeta, omega, (Phi_b, along, Phi_lean), places)
+    limit = _limit(stiffness, contact, zeta, omega, (Phi_b, along, Phi_lean), places.footprint)
     steps = steps or _steps_per_round(integrator, scene.record.samples_per_round, Omega, limit)
     h = 2 * np.pi / Omega / steps
     if (mu := contact.friction) is not None:
-        stiffness = strip_stiffness(scene.liner, places)
-        modes, stiffness = with_lean(
-            sliding_modes(omega, Phi_b, Phi_t, places), stiffness, Phi_lean
-        )
-        _require_one_solution(modes, mu, zeta, h, steps, stiffness)
+        modes = sliding_modes(omega, Phi_b, Phi_t, places)
+        modes, of_rows = with_lean(modes, stiffness, Phi_lean)
+        _require_one_solution(modes, mu, zeta, h, steps, of_rows)
     pushed = _pushed(mu, Phi_b, Phi_t, places)
     if leans:  # an edge moves by the lean, too
         pushed = pushed + INERTIA * Phi_lean**2
-    compliance = pushed @ gain(omega, zeta, h)
+    compliance = np.maximum(pushed @ gain(omega, zeta, h), 0)
     if faults := growth_fault(gaps, rom, places.xi, np.array([Omega])):
         raise SceneError(*faults)
     strips = strips_under(
-        scene.liner,
-        distortion(scene.casing, scene.liner.nu, float(given_gaps(gaps, rom, LEADING)), h),
+        liner,
+        distortion(casing, liner.nu, float(given_gaps(gaps, rom, LEADING)), h),
         contact,
         places,
         g0=gaps_at(gaps, rom, places.xi, Omega),
         lean=lean_of_gaps(gaps, rom, places.xi, Omega) if leans else None,
         steps=steps,
-        compliance=compliance if integrator.scheme == "piecewise-exact" else None,
+        w_end=share_of_end(compliance * stiffness)
+        if integrator.scheme == "piecewise-exact"
+        else None,
     )
-    _check_start(scene.casing, strips)
+    _check_start(casing, strips)
     rows = rows_of(Phi_b, Phi_t, Phi_lean)
     blade = SCHEMES[integrator.scheme].coefficients(omega, rows, zeta, h)
     if mu is not None:
-        blade = sliding(
-            blade, strips.first_t, mu * places.secant, strip_stiffness(scene.liner, places)
-        )
+        blade = sliding(blade, strips.first_t, mu * places.secant, stiffness)
     tapers = places.slope.any()
     edges = EDGES if tapers else EDGES[:1]
     judged = JUDGED if scene.record.spectrum_rounds else edges
@@ -147,7 +146,7 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
         Phi_b=Phi_b,
         Phi_t=Phi_t,
         Phi_lean=Phi_lean,
-        Phi_out=closing_rows(rom, scene.casing, outputs) @ Phi,
+        Phi_out=closing_rows(rom, casing, outputs) @ Phi,
         edges=edges,
         Phi_timing=rom.timing_rows @ Phi if tapers else Phi[:0],
         Phi_gauges=evaluate(rom.gauge_rows, Omega)[..., 1:].reshape(-1, rom.n) @ Phi
@@ -159,8 +158,8 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
         damping_ratio=zeta,
         scheme=integrator.scheme,
         blade=blade,
-        ramp=ramp_of(scene.casing),
-        law=scene.liner.law,
+        ramp=ramp_of(casing),
+        law=liner.law,
     )
 
 
@@ -200,23 +199,23 @@ def _pushed(
 
 
 def _limit(
-    liner: Liner,
+    stiffness: NDArray[np.float64],
     contact: Contact,
     zeta: float,
     omega: NDArray[np.float64],
     rows: tuple[NDArray[np.float64], ...],
-    places: Places,
+    footprint: NDArray[np.float64],
 ) -> float:
     """Stability limit of central differences with contact, s; 0 for a rigid law.
 
-    ``rows``: radial, tangential and lean ones, those that are modelled.
+    ``stiffness`` of each strip (strips,), N/m, and its ``footprint``, m; ``rows``: radial,
+    tangential and lean ones, those that are modelled.
     """
-    stiffness = strip_stiffness(liner, places)
     if np.isinf(stiffness).any():
         return 0.0
     if contact.tangential:  # along the normal (1, p'), steepest at the ends of the profile
         profile = known(contact.profile, "contact.profile")
-        steepest = abs(profile.tilt) + 4 * profile.edge_drop_m / places.footprint
+        steepest = abs(profile.tilt) + 4 * profile.edge_drop_m / footprint
         stiffness = stiffness * (1 + steepest**2)
     of_rows = [
         factor * stiffness for factor, of in zip((1.0, 1.0, INERTIA), rows, strict=True) if len(of)
@@ -324,13 +323,12 @@ def strips_under(
     g0: NDArray[np.float64],
     lean: NDArray[np.float64] | None,
     steps: int,
-    compliance: NDArray[np.float64] | None,
+    w_end: NDArray[np.float64] | None,
 ) -> Strips:
     """Liner, casing, gaps and tip at ``places``, for ``steps`` per revolution.
 
     ``g0``: gaps (strips,), m; ``lean``: gaps ahead less gaps behind, None for one row across;
-    ``compliance`` (strips,), m/N: displacement of the blade there by a force held for a step, None
-    in central differences.
+    ``w_end`` (strips,): weight of the end of the step, None in central differences.
 
     A strip's window is in rods, its middle the tip's at the middle of a step (at the end of one in
     central differences). ``d_window`` at ``first`` is the largest d from margin to margin::
@@ -346,10 +344,7 @@ def strips_under(
     length = np.maximum(places.rods, max(np.ceil(passed), 1))
     m = int(np.ceil(length.max()))
     partly_covered = min(max(ceil((passed - 1) / 2), 0), max(nu - m, 0) // 2)
-    placed, w_end = 1.0, np.ones(strips)
-    if compliance is not None:
-        placed = 0.5
-        w_end = share_of_end(np.maximum(compliance, 0) * strip_stiffness(liner, places))
+    placed, w_end = (1.0, np.ones(strips)) if w_end is None else (0.5, w_end)
     blocks = strips + -strips % LANES
     middle = places.theta * nu / (2 * np.pi) - (1 - placed) * nu / steps
     backing = liner.thickness_m if liner.worn_through == "casing" else np.inf
