@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from geometry.hats import middles
 from rom.model import Rom
+from simulate.contact.strips import rods_in_footprint
 from simulate.scene import Casing, Liner
 
 SHARES = 8  # equal parts of the chord, over which outputs are averaged
@@ -28,6 +29,7 @@ class Places:
     width: NDArray[np.float64]  # (m,), m, axial; their sum is the axial length of the tip
     slope: NDArray[np.float64]  # (m,), dr/dz of the casing
     footprint: NDArray[np.float64]  # (m,), m, arc that the tip rubs
+    rods: NDArray[np.float64]  # (m,), the same in rods of the liner
 
     @property
     def secant(self) -> NDArray[np.float64]:
@@ -78,7 +80,9 @@ def strip_places(rom: Rom, liner: Liner, casing: Casing) -> Places:
     if given is None:
         theta = np.interp(xi, np.linspace(0, 1, rom.sides.shape[1]), rom.sides.mean(axis=0))
     width, slope = np.diff(rom.line(ends)[:, 2]), slope_at(rom, casing, xi)
-    return Places(ends, xi, radius, theta, width, slope, footprint)
+    at = radius if given is None else rom.camber[:, 0].mean()
+    rods = rods_in_footprint(footprint, at, liner.nu)
+    return Places(ends, xi, radius, theta, width, slope, footprint, rods)
 
 
 def slope_at(rom: Rom, casing: Casing, xi: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -42,29 +42,56 @@ from simulate.marching import SceneError, check_scene, edge_slope, least_gap, pr
 from simulate.marching.piecewise_exact import stiffness_in_a_step
 from simulate.scene import Scene
 
-EDGE_FALL = 0.1  # of the gap: largest fall of the tip's edge over a rod
-STEPS = 0.46  # in a footprint times the cubic root of the accuracy: of the first try
-# Of a first try on a casing that tapers, where more modes respond, whose step passes more than this
-# share of the footprint: its error is up to so many times the estimate (512 steps on rotor 37; with
-# 768 it is the estimate)
-LONG, DOUBT = 0.6, 3.0
-STIFFNESS = 400.0  # of contact in a step, times the accuracy: of the first try
-FIRST_STRIPS = 6.5  # over the root of the accuracy: of the first try
-STRIPS_BY, MOST_STRIPS = 8, 64  # outputs are means over eighths of the chord
-PILOT_SPEEDS, PILOT_SHARE = 8, 6  # most speeds of the pilot; one in so many of the scene's
-STRIP_SHARE, MODEL_SHARE = 0.5, 0.5  # of the accuracy; errors add up as the root of their squares
-LEAST_REMAINING = 0.2  # share of the accuracy, squared, for the step
-MET, TARGET = 0.85, 0.75  # of the accuracy, by the pilot: errors at other speeds may be larger
-MOST_GROWTH = 4  # of steps and strips from one try to the next: orders hold for small errors only
-LITTLE_GROWTH = 1.4  # of steps whose error is small, or seems so
-TRIES = 4  # of the pilot
-REPEATS, MOST_REFINED = 2, 2  # of a run with shorter steps, and how much shorter each time
-LEAST_ORDER = 0.5  # least order in the step of a converging error; 2 for small steps
 NOT_KNOWN = (
     "accuracy: of a reduced model from elsewhere the errors against its full model and of its mesh "
     "are not known; the accuracy is that of step, rods, strips, patches and modes"
 )
-MOST_STEPS, MOST_RODS = 2**20, 2**21  # per revolution
+
+
+@dataclass(frozen=True)
+class Tuning:
+    """Numbers of the choice: value, meaning, and in brackets the commit that set the value.
+
+    Those "tuned" come from runs of random scenes, others than those of the test
+    (``tests/simulate/test_accuracy.py``); the log says so in titles alone, and no table of these
+    runs is kept. Of those "chosen" the log names no study.
+    """
+
+    # of the first try
+    steps: float = 0.46  # in a footprint, times the cubic root of the accuracy [tuned, 2f7c2ab]
+    stiffness: float = 400.0  # of contact in a step, times the accuracy [tuned, 7728636]
+    strips: float = 6.5  # over the root of the accuracy [tuned, fc507bb]
+    edge_fall: float = 0.1  # of the gap: fall of the tip's edge over a rod [chosen, 096acdf]
+    # On a casing that tapers more modes respond. A first try whose step passes more than `long` of
+    # the footprint then errs by up to `doubt` times the estimate [5784a50: 512 steps on rotor 37;
+    # with 768 the error is the estimate]
+    long: float = 0.6
+    doubt: float = 3.0
+    # of the pilot
+    pilot_speeds: int = 8  # most of its speeds [chosen, 096acdf]
+    pilot_share: int = 6  # one in so many of the scene's speeds [chosen, 06f729e]
+    tries: int = 4  # at most [chosen, 06f729e]
+    met: float = 0.85  # of the accuracy: errors at other speeds may be larger [tuned, c25c932]
+    target: float = 0.75  # of the accuracy, for the next try [tuned, c25c932]
+    # shares of the accuracy; errors add up as the root of their squares
+    strip_share: float = 0.5  # [chosen, 06f729e]
+    model_share: float = 0.5  # [chosen, before 1339e26]
+    least_remaining: float = 0.2  # squared, for the step [chosen, before 1339e26]
+    # from one try to the next
+    most_growth: int = 4  # of steps, strips: orders hold for small errors only [chosen, 096acdf]
+    little_growth: float = 1.4  # of steps whose error is small, or seems so [tuned, 21ea74b]
+    least_order: float = 0.5  # in the step, where errors converge; 2 if small [chosen, 06f729e]
+    # of each run
+    repeats: int = 2  # with shorter steps [chosen, before 1339e26]
+    most_refined: int = 2  # how much shorter each time, at most [chosen, before 1339e26]
+    # limits
+    strips_by: int = 8  # outputs are means over eighths of the chord: by definition
+    most_strips: int = 64  # [chosen, e8500d7]
+    most_steps: int = 2**20  # per revolution [chosen, 096acdf]
+    most_rods: int = 2**21  # per revolution [chosen, 096acdf]
+
+
+TUNED = Tuning()
 
 _error = attrgetter("largest_error")  # of a run
 
@@ -167,12 +194,12 @@ def choose(scene: Scene, rom: Rom, model_error: ModelError) -> Choice:
     runs = {Omega: march_with_errors(scene, rom, coarse, Omega, fineness) for Omega in speeds}
     worst = max(runs.values(), key=_error)
     expected = min(worst.largest_error, 1.0)
-    for attempt in range(TRIES):
-        long = LONG * fineness.steps_per_round < _around(scene, rom)
-        doubt = DOUBT if attempt == 0 and long and worst.setup.places.slope.any() else 1.0
+    for attempt in range(TUNED.tries):
+        long = TUNED.long * fineness.steps_per_round < _around(scene, rom)
+        doubt = TUNED.doubt if attempt == 0 and long and worst.setup.places.slope.any() else 1.0
         if (
-            doubt * worst.largest_error <= MET * scene.allowed_error
-            or fineness.steps_per_round >= MOST_STEPS
+            doubt * worst.largest_error <= TUNED.met * scene.allowed_error
+            or fineness.steps_per_round >= TUNED.most_steps
         ):
             break
         parts = error_by_part(worst, coarse)
@@ -184,7 +211,7 @@ def choose(scene: Scene, rom: Rom, model_error: ModelError) -> Choice:
         converging = _converging(before, runs, fineness.steps_per_round / old.steps_per_round)
         worst = max(converging or [min(runs.values(), key=_error)], key=_error)
     worst = max(runs.values(), key=_error)
-    if worst.largest_error > MET * scene.allowed_error:
+    if worst.largest_error > TUNED.met * scene.allowed_error:
         _require_finest(worst, scene, rom, coarse, error_by_part(worst, coarse))
     return Choice(
         accuracy=scene.allowed_error,
@@ -207,7 +234,7 @@ def choose(scene: Scene, rom: Rom, model_error: ModelError) -> Choice:
 def _pilot_speeds(scene: Scene, rom: Rom) -> NDArray[np.float64]:
     """Speeds of the pilot, rad/s: evenly among those of the scene, without its ends."""
     speeds = scene.speeds.omega(rom.f1)
-    count = min(PILOT_SPEEDS, max(len(speeds) // PILOT_SHARE, 2), len(speeds))
+    count = min(TUNED.pilot_speeds, max(len(speeds) // TUNED.pilot_share, 2), len(speeds))
     return speeds[((np.arange(count) + 0.5) * len(speeds) / count).astype(int)]
 
 
@@ -223,12 +250,15 @@ def _finer(scene: Scene, rom: Rom, fineness: Fineness, parts: Parts) -> tuple[Fi
     of_strips = parts.strips * (fineness.strips / strips) ** 2
     fixed = of_strips**2 + parts.model**2
     remaining = sqrt(
-        max((TARGET * scene.allowed_error) ** 2 - fixed, LEAST_REMAINING * scene.allowed_error**2)
+        max(
+            (TUNED.target * scene.allowed_error) ** 2 - fixed,
+            TUNED.least_remaining * scene.allowed_error**2,
+        )
     )
-    growth = min(max(sqrt(parts.step / remaining), 1.0), MOST_GROWTH)
-    steps = multiple_of_samples(scene, min(growth * fineness.steps_per_round, MOST_STEPS))
+    growth = min(max(sqrt(parts.step / remaining), 1.0), TUNED.most_growth)
+    steps = multiple_of_samples(scene, min(growth * fineness.steps_per_round, TUNED.most_steps))
     if (steps, strips) == (fineness.steps_per_round, fineness.strips):  # they are small, or seem so
-        steps = multiple_of_samples(scene, min(LITTLE_GROWTH * steps, MOST_STEPS))
+        steps = multiple_of_samples(scene, min(TUNED.little_growth * steps, TUNED.most_steps))
         strips = _most_strips(scene, rom)
     of_step = parts.step * (fineness.steps_per_round / steps) ** 2
     return _with_rods(scene, rom, steps, strips), sqrt(of_step**2 + fixed)
@@ -248,23 +278,25 @@ def _require_finest(worst: Run, scene: Scene, rom: Rom, coarse: Coarser, parts: 
     most, fineness = _most_strips(scene, rom), Fineness.of(worst.setup)
     if not _refusal(scene, parts, fineness.strips, most):
         return
-    finest = _with_rods(scene, rom, min(MOST_GROWTH * fineness.steps_per_round, MOST_STEPS), most)
+    finest = _with_rods(
+        scene, rom, min(TUNED.most_growth * fineness.steps_per_round, TUNED.most_steps), most
+    )
     run = march_with_errors(scene, rom, coarse, worst.setup.Omega, finest)
-    missed = run.largest_error > MET * scene.allowed_error
+    missed = run.largest_error > TUNED.met * scene.allowed_error
     if missed and (why := _refusal(scene, error_by_part(run, coarse), most, most)):
         raise SceneError(why, key="accuracy", value=scene.allowed_error)
 
 
 def _refusal(scene: Scene, parts: Parts, strips: int, most: int) -> str:
     """Why model and ``most`` strips leave too little of the accuracy to the step; empty if not."""
-    if parts.model > MODEL_SHARE * scene.allowed_error:
+    if parts.model > TUNED.model_share * scene.allowed_error:
         return (
             "patches and natural modes of the reduced model cause a relative error of about "
-            f"{parts.model:.2g} in the recorded outputs; allowed up to {MODEL_SHARE:g} of the "
-            "accuracy: raise interface.patches or basis.natural_modes in the blade's file"
+            f"{parts.model:.2g} in the recorded outputs; allowed up to {TUNED.model_share:g} of "
+            "the accuracy: raise interface.patches or basis.natural_modes in the blade's file"
         )
     fixed = hypot(parts.strips * (strips / most) ** 2, parts.model)
-    if fixed <= sqrt(1 - LEAST_REMAINING) * scene.allowed_error:
+    if fixed <= sqrt(1 - TUNED.least_remaining) * scene.allowed_error:
         return ""
     needs = f"needs more than {most} strips, whose relative error is {fixed:.2g}"
     if rigid := scene.liner.rigid_key:
@@ -278,19 +310,19 @@ def _refusal(scene: Scene, parts: Parts, strips: int, most: int) -> str:
 def _most_strips(scene: Scene, rom: Rom) -> int:
     """As many as the patches against a rigid casing, else more."""
     patches = len(rom.xi)
-    return patches if scene.liner.rigid_key else max(MOST_STRIPS, patches)
+    return patches if scene.liner.rigid_key else max(TUNED.most_strips, patches)
 
 
 def _first_strips(scene: Scene, rom: Rom) -> int:
     """Strips of the first try, at least one for each patch."""
-    least = max(FIRST_STRIPS / sqrt(scene.allowed_error), len(rom.xi))
-    return min(STRIPS_BY * ceil(least / STRIPS_BY), _most_strips(scene, rom))
+    least = max(TUNED.strips / sqrt(scene.allowed_error), len(rom.xi))
+    return min(TUNED.strips_by * ceil(least / TUNED.strips_by), _most_strips(scene, rom))
 
 
 def _strips_for(scene: Scene, rom: Rom, drafted: int, parts: Parts) -> int:
     """Number of strips whose error, of second order in their width, is its share."""
-    growth = min(sqrt(parts.strips / (STRIP_SHARE * scene.allowed_error)), MOST_GROWTH)
-    needed = STRIPS_BY * ceil(growth * drafted / STRIPS_BY)
+    growth = min(sqrt(parts.strips / (TUNED.strip_share * scene.allowed_error)), TUNED.most_growth)
+    needed = TUNED.strips_by * ceil(growth * drafted / TUNED.strips_by)
     return max(min(needed, _most_strips(scene, rom)), drafted)
 
 
@@ -298,12 +330,12 @@ def march_to_accuracy(scene: Scene, rom: Rom, Omega: float, choice: Choice) -> R
     """March at ``Omega`` (rad/s), with shorter steps where the accuracy needs them."""
     coarse, run = coarser(rom), choice.runs.get(Omega)
     run = run or march_with_errors(scene, rom, coarse, Omega, choice, choice.times)
-    for _ in range(REPEATS):
+    for _ in range(TUNED.repeats):
         if run.largest_error > choice.accuracy:
             run = with_errors(run, coarse)
         if run.largest_error <= choice.accuracy:
             return run
-        growth = min(run.largest_error / choice.accuracy, MOST_REFINED) / TARGET
+        growth = min(run.largest_error / choice.accuracy, TUNED.most_refined) / TUNED.target
         steps = multiple_of_samples(scene, growth * run.setup.steps)
         finer = replace(choice, steps_per_round=steps)
         run = march_with_errors(scene, rom, coarse, Omega, finer)
@@ -315,7 +347,7 @@ def _converging(before: dict[float, Run], after: dict[float, Run], growth: float
 
     Chaotic motion does not converge with the step: such runs are left out.
     """
-    least = growth**LEAST_ORDER if growth > 1 else 0.0
+    least = growth**TUNED.least_order if growth > 1 else 0.0
     return [
         run
         for Omega, run in after.items()
@@ -346,9 +378,9 @@ def _first(scene: Scene, rom: Rom, speeds: NDArray[np.float64]) -> Fineness:
     weights = (prepare(case, rom, Omega).strips.w_end for Omega in speeds)
     stiffness = max(float(stiffness_in_a_step(w_end).sum()) for w_end in weights)
     if isfinite(stiffness):  # not of a rigid law
-        steps *= max(sqrt(stiffness / (STIFFNESS * scene.allowed_error)), 1.0)
-    least = STEPS / cbrt(scene.allowed_error) * _around(scene, rom)
-    steps = multiple_of_samples(scene, min(max(steps, least), MOST_STEPS))
+        steps *= max(sqrt(stiffness / (TUNED.stiffness * scene.allowed_error)), 1.0)
+    least = TUNED.steps / cbrt(scene.allowed_error) * _around(scene, rom)
+    steps = multiple_of_samples(scene, min(max(steps, least), TUNED.most_steps))
     return _with_rods(scene, rom, steps, strips)
 
 
@@ -357,6 +389,6 @@ def _with_rods(scene: Scene, rom: Rom, steps: int, strips: int) -> Fineness:
     gap = least_gap(scene.gaps, rom, scene.liner.m, scene.speeds.omega(rom.f1))
     footprint = mean_footprint(scene.liner, rom)
     fall = edge_slope(scene.contact.profile, footprint) * footprint
-    edge = fall / (EDGE_FALL * gap) if gap > 0 else 0.0
+    edge = fall / (TUNED.edge_fall * gap) if gap > 0 else 0.0
     rods = max(edge * _around(scene, rom), steps - 1)
-    return Fineness(steps, min(ceil(rods), MOST_RODS), strips)
+    return Fineness(steps, min(ceil(rods), TUNED.most_rods), strips)

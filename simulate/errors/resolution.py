@@ -26,25 +26,25 @@ from simulate.contact.strips import rods_in_footprint
 from simulate.contact.travelling import distortion_passed, farthest
 from simulate.errors.run import Run
 from simulate.marching import SceneError, Setup
-from simulate.scene import Scene
 
 DEEP = 0.3  # of the deepest penetration: a window reaches this,
 EDGE = 0.15  # and lasts while above this: a rough casing crosses one level often
 WINDOW = 12.0  # least steps of a window: errors are about a tenth there
 PERIOD = 100.0  # least steps of a period of the first mode where the tip can touch,
 HALVED = 10.0  # and where half the step is run, too
-FOOTPRINTS = 2.0  # most that the tip passes in a step without `verify: every`
+FOOTPRINTS = 2.0  # most that the tip passes in a step where there is no half step
 # of the casing's work: above, a run that stands alone is `inaccurate`; the predicted force of
 # central differences loses some also where they are accurate
 LOST = {"central-difference": 0.06, "piecewise-exact": 0.015}
 POWER, LEAST_LOST = 0.25, 1e-8  # of the share lost, in the risk; smaller shares are round-off
 
 
-def check_resolution(scene: Scene, setup: Setup) -> None:
+def check_resolution(setup: Setup, samples: int, halves: bool) -> None:
     """Refuse a step too long for the shortest contact of the still blade, or for its first mode.
 
-    And one in which the tip passes more than two footprints. With `verify: every` second runs tell
-    the latter two, but for very long steps.
+    And one in which the tip passes more than two footprints. With ``halves``, runs of half the
+    step at each speed, these tell the latter two, but for very long steps. Steps are a multiple of
+    ``samples``.
 
     Raises
     ------
@@ -59,19 +59,18 @@ def check_resolution(scene: Scene, setup: Setup) -> None:
     window = shortest_window(setup, deepest)
     times, what = max(
         (
-            (HALVED if scene.halves else PERIOD) / period,
+            (HALVED if halves else PERIOD) / period,
             f"the first mode has {period:.3g} steps in a period",
         ),
         (WINDOW / window, f"the closest part of the casing is passed in {window:.3g} steps"),
         (
-            0.0 if scene.halves else footprints / FOOTPRINTS,
+            0.0 if halves else footprints / FOOTPRINTS,
             f"the tip passes {footprints:.3g} of its footprints in a step",
         ),
     )
     if times <= 1:
         return
     of_round = 2 * np.pi / (setup.Omega * setup.h)
-    samples = scene.record.samples_per_round
     least = int(np.ceil(times * of_round / samples)) * samples
     raise SceneError(
         f"at {setup.Omega:.6g} rad/s {what}; allowed from {least}, or `accuracy`, which chooses it",

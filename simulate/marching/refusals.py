@@ -30,7 +30,7 @@ def check_scene(scene: Scene, rom: Rom) -> None:
     SceneError
         One line for each fault.
     """
-    require_sweep(scene)
+    require_sweep(scene.blade, scene.design, scene.accuracy)
     liner, casing, directions = scene.liner, scene.casing, scene.directions
     places = strip_places(rom, liner, casing)
     speeds = scene.speeds.omega(rom.f1)
@@ -52,22 +52,22 @@ def check_scene(scene: Scene, rom: Rom) -> None:
         raise SceneError(*faults)
 
 
-def require_sweep(scene: Scene) -> None:
-    """Refuse a scene of which others make sweeps: nothing else of it is checked.
+def require_sweep(blade: str, design: str | None, accuracy: float | None) -> None:
+    """Refuse the ``design`` or ``accuracy`` of a scene of which others make sweeps.
 
     Raises
     ------
     SceneError
         For a design, and for an accuracy whose settings are not chosen yet.
     """
-    if scene.design is not None:
+    if design is not None:
         raise SceneError(
             "a table of scenes, no single sweep: run it with ./run snakemake "
-            f"results/{scene.blade}/SCENE/design.csv, or workflow.many in Python",
+            f"results/{blade}/SCENE/design.csv, or workflow.many in Python",
             key="design",
-            value=scene.design,
+            value=design,
         )
-    if scene.accuracy is not None:
+    if accuracy is not None:
         raise SceneError(
             "no settings chosen yet: call simulate.errors.accuracy.choose first", key="accuracy"
         )

@@ -18,19 +18,15 @@ from geometry.tip import EDGES
 from simulate.contact.compiled import for_types_of
 from simulate.contact.ledger import CASING, DAMPING, FRICTION, HEAT, PLASTIC, RELEASED, WORK, Ledger
 from simulate.contact.places import SHARES, force_weights, volume_of
-from simulate.contact.ramp import ramp_of
 from simulate.contact.strips import offset
-from simulate.marching import central_difference, piecewise_exact
-from simulate.marching.friction import sliding
 from simulate.marching.kernel import RUNNING, WORN_THROUGH, Recorded, State, at_start, march_round
-from simulate.marching.modal import TURNS, Scheme, padded_rows, rows_of
-from simulate.marching.setup import Setup, compiling, strip_stiffness
+from simulate.marching.modal import TURNS, padded_rows
+from simulate.marching.setup import SCHEMES, Setup, compiling
 from simulate.marching.states import MostStrained, every
 from simulate.marching.status import WITH_RESULT, Facts, judge, why_no_contact
 from simulate.marching.trend import Rounds, looks, time_constant
 from simulate.scene import STEADY, TOO_SHORT, Record, Scene
 
-SCHEMES = {"central-difference": central_difference, "piecewise-exact": piecewise_exact}
 UNDER = ("at", "passed", "stored", "ramp", "low", "high")  # of ``rods.STRIP``
 SOLVER = ("F", "moment", "reaction")  # of ``interface_force.AT_STRIP``
 
@@ -128,21 +124,13 @@ def _room(record: Record, rounds: int, places: int, modes: int) -> list[NDArray[
 
 
 def _start(
-    scene: Scene, setup: Setup
+    setup: Setup, record: Record, rounds: int, until: str | None
 ) -> tuple[list[NDArray[np.float64]], Callable, Callable[..., tuple[Any, ...]]]:
     """Room for the outputs, the kernel, and its arguments: a blade at rest over an unworn liner."""
-    strips, zeta = setup.strips, scene.damping_ratio
-    rounds, until, record = scene.rounds, scene.until, scene.record
     always = until or record.history  # else all outputs are read where the spectrum is
-    rows = rows_of(setup.Phi_b, setup.Phi_t, setup.Phi_lean)
-    scheme = SCHEMES[scene.stepping.scheme].coefficients(setup.omega, rows, zeta, setup.h)
-    if (mu := scene.contact.friction) is not None:
-        along = mu * setup.places.secant
-        stiffness = strip_stiffness(scene.liner, setup.places)
-        scheme = sliding(scheme, strips.first_t, along, stiffness)
-    state = at_start(scheme, strips)
-    outputs, ramp = np.vstack([setup.Phi_out, setup.Phi_timing]), ramp_of(scene.casing)
-    kept = _room(scene.record, rounds, len(outputs), state.motion.x.shape[1])
+    strips, state = setup.strips, at_start(setup.blade, setup.strips)
+    outputs = np.vstack([setup.Phi_out, setup.Phi_timing])
+    kept = _room(record, rounds, len(outputs), state.motion.x.shape[1])
     Phi_out = padded_rows(outputs)
     share = force_weights(setup.places.ends)[: kept[1].shape[2]]
     over_radial = np.stack([setup.places.secant, np.ones_like(setup.places.secant)])
@@ -154,9 +142,10 @@ def _start(
         read = always or done >= rounds - record.rounds_of_spectrum
         Phi = Phi_out if read else Phi_out[: len(setup.edges)]
         recorded = Recorded(*rows, Phi=Phi, weights=weights)
-        return scheme, strips, state, recorded, ramp, setup.bound, before + done, setup.steps
+        of_setup = setup.ramp, setup.bound, before + done, setup.steps
+        return setup.blade, strips, state, recorded, *of_setup
 
-    with compiling(scene.liner.law):
+    with compiling(setup.law):
         kernel = for_types_of(march_round, *arguments(0))
     return kept, kernel, arguments
 
@@ -164,7 +153,7 @@ def _start(
 def make_kernel(scene: Scene, setup: Setup) -> float:
     """Compile the kernel for the scheme and law, or read it from its file; return wall time, s."""
     start = perf_counter()
-    _start(scene, setup)
+    _start(setup, scene.record, scene.rounds, scene.until)
     return perf_counter() - start
 
 
@@ -174,12 +163,12 @@ def march(scene: Scene, setup: Setup, start: FinalState | Worn | None = None) ->
     ``start``: end of another run, from which this one goes on, or its liner; without it a
     blade at rest starts over an unworn liner.
     """
-    kept, kernel, arguments = _start(scene, setup)
-    scheme, strips, state, *_ = arguments(0)
-    first, steps, zeta = start.rounds if start else 0, setup.steps, scene.damping_ratio
+    kept, kernel, arguments = _start(setup, scene.record, scene.rounds, scene.until)
+    _, strips, state, *_ = arguments(0)
+    first, steps, zeta = start.rounds if start else 0, setup.steps, setup.damping_ratio
     if start:
-        begin(state, start, scheme, SCHEMES[scene.stepping.scheme], setup, zeta)
-    before = _stored(scene, setup, state, first * steps)
+        begin(state, start, setup)
+    before = _stored(setup, state, first * steps)
     contacts, done, end, worked = 0, 0, RUNNING, [0.0]
     worn, tau, words, moves = _worn(setup, state), nan, [TOO_SHORT], 0
     at_edges = [Rounds.unknown(scene.rounds, worn) for _ in setup.edges]
@@ -215,7 +204,7 @@ def march(scene: Scene, setup: Setup, start: FinalState | Worn | None = None) ->
     taken = np.full((scene.rounds, 1), steps)
     taken[done - 1] = step
     total = first * steps + marched
-    ledger = _ledger(state.energies, before, _stored(scene, setup, state, total))
+    ledger = _ledger(state.energies, before, _stored(setup, state, total))
     facts = Facts(
         end,
         ledger,
@@ -258,7 +247,7 @@ def march(scene: Scene, setup: Setup, start: FinalState | Worn | None = None) ->
         time_constant=tau,
         trend=words[-1],
         final=final_state(state, setup, first + done) if wanted and end == RUNNING else None,
-        reason=why_no_contact(scene, strips, state.eps_p, first + done)
+        reason=why_no_contact(scene, setup, state.eps_p, first + done)
         if status == "no-contact"
         else "",
     )
@@ -308,10 +297,10 @@ def _worn(setup: Setup, state: State) -> float:
     return float(volume_of(depth, places.width, places.radius))
 
 
-def _stored(scene: Scene, setup: Setup, state: State, steps: int) -> tuple[float, float]:
+def _stored(setup: Setup, state: State, steps: int) -> tuple[float, float]:
     """Energies, J, of the blade and of the rods under its tip, after so many ``steps``."""
-    strips, energy = setup.strips, SCHEMES[scene.stepping.scheme].energy
-    blade = energy(setup.omega, scene.damping_ratio, setup.h, state.motion, steps % TURNS)
+    strips, energy = setup.strips, SCHEMES[setup.scheme].energy
+    blade = energy(setup.omega, setup.damping_ratio, setup.h, state.motion, steps % TURNS)
     return blade, float(state.covered.strips.stored @ strips.area * strips.thickness)
 
 
@@ -378,15 +367,8 @@ def final_state(state: State, setup: Setup, rounds: int) -> FinalState:
     )
 
 
-def begin(
-    state: State,
-    start: FinalState | Worn,
-    scheme: Scheme,
-    integrator: Any,
-    setup: Setup,
-    zeta: float,
-) -> None:
-    """Put the end of a run into a ``state`` at rest; ``integrator``: the module of the scheme."""
+def begin(state: State, start: FinalState | Worn, setup: Setup) -> None:
+    """Put the end of a run into a ``state`` at rest."""
     state.eps_p[:] = start.eps_p
     if isinstance(start, Worn):
         return
@@ -394,13 +376,13 @@ def begin(
     if start.Omega == setup.Omega:
         motion.x[rows], motion.y[rows], motion.u[rows] = start.x, start.y, start.u
     else:
-        n = setup.omega.size
+        n, zeta, integrator = setup.omega.size, setup.damping_ratio, SCHEMES[setup.scheme]
         x, y = start.x[:, :n], start.y[:, :n]
         q, v = integrator.motion_of(start.omega, zeta, start.h, x, y)
         q, v = (np.linalg.solve(setup.Phi, start.Phi @ part) for part in (q, v))
         x, y = integrator.turns_of(setup.omega, zeta, setup.h, q, v)
         motion.x[rows, :n], motion.y[rows, :n] = x, y
-        motion.u[rows] = motion.x[rows] @ scheme.Phi.T
+        motion.u[rows] = motion.x[rows] @ setup.blade.Phi.T
     motion.moved[:] = start.moved
     state.covered.rods["part"], state.covered.rods["stored"] = start.part, start.stored
     for name, values in zip(UNDER, start.under, strict=True):

@@ -4,6 +4,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from math import ceil, radians
+from typing import NamedTuple
 
 import numpy as np
 from numba.core import errors
@@ -18,15 +19,16 @@ from simulate.contact.law_check import compile_fault
 from simulate.contact.places import (
     Places,
     closing_rows,
-    given_footprint,
     strip_places,
     strip_xi,
 )
+from simulate.contact.ramp import Ramp, ramp_of
 from simulate.contact.rod_law import RodLaw, rod_law
-from simulate.contact.strips import Strips, Tip, largest_over_window, rods_in_footprint
-from simulate.contact.travelling import STANDING, waves
-from simulate.marching.friction import Modes, steps_with_one_solution
-from simulate.marching.modal import LANES, rows_of
+from simulate.contact.strips import Strips, Tip, largest_over_window
+from simulate.contact.travelling import STANDING, Waves, waves
+from simulate.marching import central_difference, piecewise_exact
+from simulate.marching.friction import Modes, sliding, steps_with_one_solution
+from simulate.marching.modal import LANES, Scheme, rows_of
 from simulate.marching.piecewise_exact import gain, share_of_end
 from simulate.marching.stability import step_limit
 from simulate.scene import LEADING, Casing, Contact, Gaps, Liner, Profile, Scene
@@ -34,6 +36,7 @@ from simulate.scene.law import Law
 from simulate.scene.laws import LAWS
 from simulate.scene.scene import Integrator
 
+SCHEMES = {"central-difference": central_difference, "piecewise-exact": piecewise_exact}
 LARGEST_DISPLACEMENT = 0.1  # of the span: beyond this, linear elasticity no longer applies
 INERTIA = 1 / 12  # of a footprint: the moment under a lean of 1, over the force under a w of 1
 MARGIN = 2  # rods on either side of the window, where the casing is met at the end of a step
@@ -65,6 +68,11 @@ class Setup:
     places: Places
     strips: Strips
     bound: float  # m, displacement beyond which a run has diverged
+    damping_ratio: float
+    scheme: str  # key of ``SCHEMES``
+    blade: Scheme  # the modes, with their interface rows, as the kernel reads them
+    ramp: Ramp
+    law: Law
 
 
 def least_gap(of: Gaps, rom: Rom, strips: int, speeds: Iterable[float]) -> float:
@@ -86,29 +94,44 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
         start.
     """
     integrator, contact, zeta = scene.stepping, scene.contact, scene.damping_ratio
+    liner, casing, gaps = scene.liner, scene.casing, scene.gaps
     omega, Phi = rom.modes(Omega)
-    places, leans = strip_places(rom, scene.liner, scene.casing), rom.across == 2
-    Phi_b = closing_rows(rom, scene.casing, places.xi) @ Phi
+    places, leans = strip_places(rom, liner, casing), rom.across == 2
+    stiffness = strip_stiffness(liner, places)
+    Phi_b = closing_rows(rom, casing, places.xi) @ Phi
     Phi_t = rom.rows(places.xi, "t") @ Phi if contact.along else Phi[:0]
-    Phi_lean = closing_rows(rom, scene.casing, places.xi, leans) @ Phi if leans else Phi[:0]
+    Phi_lean = closing_rows(rom, casing, places.xi, leans) @ Phi if leans else Phi[:0]
     along = Phi_t if contact.tangential else Phi[:0]  # with friction as without
-    limit = _limit(scene.liner, contact, zeta, omega, (Phi_b, along, Phi_lean), places)
+    limit = _limit(stiffness, contact, zeta, omega, (Phi_b, along, Phi_lean), places.footprint)
     steps = steps or _steps_per_round(integrator, scene.record.samples_per_round, Omega, limit)
     h = 2 * np.pi / Omega / steps
     if (mu := contact.friction) is not None:
-        stiffness = strip_stiffness(scene.liner, places)
-        modes, stiffness = with_lean(
-            sliding_modes(omega, Phi_b, Phi_t, places), stiffness, Phi_lean
-        )
-        _require_one_solution(modes, mu, zeta, h, steps, stiffness)
+        modes = sliding_modes(omega, Phi_b, Phi_t, places)
+        modes, of_rows = with_lean(modes, stiffness, Phi_lean)
+        _require_one_solution(modes, mu, zeta, h, steps, of_rows)
     pushed = _pushed(mu, Phi_b, Phi_t, places)
     if leans:  # an edge moves by the lean, too
         pushed = pushed + INERTIA * Phi_lean**2
-    compliance = pushed @ gain(omega, zeta, h)
-    if faults := growth_fault(scene.gaps, rom, places.xi, np.array([Omega])):
+    compliance = np.maximum(pushed @ gain(omega, zeta, h), 0)
+    if faults := growth_fault(gaps, rom, places.xi, np.array([Omega])):
         raise SceneError(*faults)
-    strips = strips_under(scene, rom, places, Omega, steps, compliance)
-    _check_start(scene.casing, strips)
+    strips = strips_under(
+        liner,
+        distortion(casing, liner.nu, float(given_gaps(gaps, rom, LEADING)), h),
+        contact,
+        places,
+        g0=gaps_at(gaps, rom, places.xi, Omega),
+        lean=lean_of_gaps(gaps, rom, places.xi, Omega) if leans else None,
+        steps=steps,
+        w_end=share_of_end(compliance * stiffness)
+        if integrator.scheme == "piecewise-exact"
+        else None,
+    )
+    _check_start(casing, strips)
+    rows = rows_of(Phi_b, Phi_t, Phi_lean)
+    blade = SCHEMES[integrator.scheme].coefficients(omega, rows, zeta, h)
+    if mu is not None:
+        blade = sliding(blade, strips.first_t, mu * places.secant, stiffness)
     tapers = places.slope.any()
     edges = EDGES if tapers else EDGES[:1]
     judged = JUDGED if scene.record.spectrum_rounds else edges
@@ -123,7 +146,7 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
         Phi_b=Phi_b,
         Phi_t=Phi_t,
         Phi_lean=Phi_lean,
-        Phi_out=closing_rows(rom, scene.casing, outputs) @ Phi,
+        Phi_out=closing_rows(rom, casing, outputs) @ Phi,
         edges=edges,
         Phi_timing=rom.timing_rows @ Phi if tapers else Phi[:0],
         Phi_gauges=evaluate(rom.gauge_rows, Omega)[..., 1:].reshape(-1, rom.n) @ Phi
@@ -132,6 +155,11 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
         places=places,
         strips=strips,
         bound=LARGEST_DISPLACEMENT * rom.span,
+        damping_ratio=zeta,
+        scheme=integrator.scheme,
+        blade=blade,
+        ramp=ramp_of(casing),
+        law=liner.law,
     )
 
 
@@ -171,23 +199,23 @@ def _pushed(
 
 
 def _limit(
-    liner: Liner,
+    stiffness: NDArray[np.float64],
     contact: Contact,
     zeta: float,
     omega: NDArray[np.float64],
     rows: tuple[NDArray[np.float64], ...],
-    places: Places,
+    footprint: NDArray[np.float64],
 ) -> float:
     """Stability limit of central differences with contact, s; 0 for a rigid law.
 
-    ``rows``: radial, tangential and lean ones, those that are modelled.
+    ``stiffness`` of each strip (strips,), N/m, and its ``footprint``, m; ``rows``: radial,
+    tangential and lean ones, those that are modelled.
     """
-    stiffness = strip_stiffness(liner, places)
     if np.isinf(stiffness).any():
         return 0.0
     if contact.tangential:  # along the normal (1, p'), steepest at the ends of the profile
         profile = known(contact.profile, "contact.profile")
-        steepest = abs(profile.tilt) + 4 * profile.edge_drop_m / places.footprint
+        steepest = abs(profile.tilt) + 4 * profile.edge_drop_m / footprint
         stiffness = stiffness * (1 + steepest**2)
     of_rows = [
         factor * stiffness for factor, of in zip((1.0, 1.0, INERTIA), rows, strict=True) if len(of)
@@ -259,17 +287,48 @@ def _multiple(steps: float, unit: int) -> int:
     return int(np.ceil(steps / unit)) * unit
 
 
-def strips_under(
-    scene: Scene,
-    rom: Rom,
-    places: Places,
-    Omega: float,
-    steps: int,
-    compliance: NDArray[np.float64],
-) -> Strips:
-    """Liner, casing, gaps and tip at ``places``, for ``steps`` per revolution at ``Omega`` (rad/s).
+class Distortion(NamedTuple):
+    """Casing at the rods (nu,), m, inward, at its largest."""
 
-    ``compliance`` (strips,), m/N: displacement of the blade there by a force held for a step.
+    d: NDArray[np.float64]  # in the first step
+    fixed: NDArray[np.float64]  # of it what does not travel
+    waves: Waves  # harmonics that travel
+
+
+def distortion(casing: Casing, nu: int, gap: float, h: float) -> Distortion:
+    """Distortion at ``nu`` rods, over the ``gap`` (m) at xi = 1/16, in steps of ``h``, s."""
+    theta = 2 * np.pi * np.arange(nu) / nu
+    d = casing.inward(theta, gap)
+    if not casing.travelling:
+        return Distortion(d, d, STANDING)
+    fixed = casing.fixed(theta, gap)
+    moving = [
+        (
+            casing.scale * harmonic.size(gap),
+            harmonic.order,
+            radians(harmonic.phase_deg),
+            harmonic.turn(h),
+        )
+        for harmonic in casing.travelling
+    ]
+    return Distortion(d, fixed, waves(fixed, np.array(moving, float)))
+
+
+def strips_under(
+    liner: Liner,
+    casing: Distortion,
+    contact: Contact,
+    places: Places,
+    *,
+    g0: NDArray[np.float64],
+    lean: NDArray[np.float64] | None,
+    steps: int,
+    w_end: NDArray[np.float64] | None,
+) -> Strips:
+    """Liner, casing, gaps and tip at ``places``, for ``steps`` per revolution.
+
+    ``g0``: gaps (strips,), m; ``lean``: gaps ahead less gaps behind, None for one row across;
+    ``w_end`` (strips,): weight of the end of the step, None in central differences.
 
     A strip's window is in rods, its middle the tip's at the middle of a step (at the end of one in
     central differences). ``d_window`` at ``first`` is the largest d from margin to margin::
@@ -280,59 +339,44 @@ def strips_under(
                          passed                                passed
                         in a step                             in a step
     """
-    liner, casing, nu = scene.liner, scene.casing, scene.liner.nu
-    gap, theta = float(given_gaps(scene.gaps, rom, LEADING)), 2 * np.pi * np.arange(nu) / nu
-    d, h = casing.inward(theta, gap), 2 * np.pi / Omega / steps
-    fixed = casing.fixed(theta, gap) if casing.travelling else d
-    moving = [
-        (
-            casing.scale * harmonic.size(gap),
-            harmonic.order,
-            radians(harmonic.phase_deg),
-            harmonic.turn(h),
-        )
-        for harmonic in casing.travelling
-    ]
+    nu, strips = liner.nu, len(places.xi)
     passed = nu / steps  # rods, in a step
-    covers, radius = given_footprint(liner, rom) is None, rom.camber[:, 0].mean()
-    rods = rods_in_footprint(places.footprint, places.radius if covers else radius, nu)
-    length = np.maximum(rods, max(np.ceil(passed), 1))
-    m, leans = int(np.ceil(length.max())), rom.across == 2
+    length = np.maximum(places.rods, max(np.ceil(passed), 1))
+    m = int(np.ceil(length.max()))
     partly_covered = min(max(ceil((passed - 1) / 2), 0), max(nu - m, 0) // 2)
-    implicit = scene.stepping.scheme == "piecewise-exact"
-    placed = 0.5 if implicit else 1.0
-    w_end = share_of_end(np.maximum(compliance, 0) * strip_stiffness(liner, places))
-    rows, blocks = (0.0,) * rom.across, len(places.xi) + -len(places.xi) % LANES
+    placed, w_end = (1.0, np.ones(strips)) if w_end is None else (0.5, w_end)
+    blocks = strips + -strips % LANES
     middle = places.theta * nu / (2 * np.pi) - (1 - placed) * nu / steps
     backing = liner.thickness_m if liner.worn_through == "casing" else np.inf
+    # a rigid casing is met at the end of a step
+    margin = MARGIN if liner.rigid_key or casing.waves is not STANDING else 1
     return Strips(
         law=_rod_law(liner),
-        g0=gaps_at(scene.gaps, rom, places.xi, Omega),
-        d=d,
-        d_end=d.copy(),
-        # a rigid casing is met at the end of a step
-        d_window=_deepest(fixed, m, partly_covered, MARGIN if liner.rigid_key or moving else 1),
+        g0=g0,
+        d=casing.d,
+        d_end=casing.d.copy(),
+        d_window=_deepest(casing.fixed, m, partly_covered, margin),
         first=(middle - partly_covered - (m - 1) / 2) % nu,
         advance=passed,
         length=length,
-        lengthened=length / rods,
+        lengthened=length / places.rods,
         rods_covered=m,
         inset=(m - np.ceil(length).astype(int)) // 2,
         partly_covered=partly_covered,
         placed=placed,
-        w_end=w_end if implicit else np.ones(len(w_end)),
+        w_end=w_end,
         area=places.width * places.footprint / length,
         thickness=liner.thickness_m,
         pitch=2 * np.pi * places.radius / nu,
-        tip=_tip(scene.contact.profile, places.footprint),
+        tip=_tip(contact.profile, places.footprint),
         touches=liner.law.touches,
-        tangential=scene.contact.along,
+        tangential=contact.along,
         rigid_depth=backing if liner.law.deforms else 0.0,
         first_t=blocks,
-        first_lean=blocks * (1 + scene.contact.along),
-        lean=lean_of_gaps(scene.gaps, rom, places.xi, Omega) if leans else np.zeros(len(places.xi)),
-        rows=rows,
-        waves=waves(fixed, np.array(moving, float)) if moving else STANDING,
+        first_lean=blocks * (1 + contact.along),
+        lean=np.zeros(strips) if lean is None else lean,
+        rows=(0.0,) * (1 if lean is None else 2),
+        waves=casing.waves,
     )
 
 

@@ -6,10 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from simulate.contact.ledger import Ledger
-from simulate.contact.ramp import ramp_of
-from simulate.contact.strips import Strips
 from simulate.contact.travelling import farthest
 from simulate.marching.kernel import RUNNING, WORN_THROUGH
+from simulate.marching.setup import Setup
 from simulate.scene import Scene
 
 # in the order in which tables number them
@@ -90,7 +89,7 @@ def judge(
     return next((status for holds, status in verdicts if holds), "ok")
 
 
-def why_no_contact(scene: Scene, strips: Strips, eps_p: NDArray[np.float64], rounds: int) -> str:
+def why_no_contact(scene: Scene, setup: Setup, eps_p: NDArray[np.float64], rounds: int) -> str:
     """Reason why the tip did not touch: the key, its value and the change needed.
 
     The blade starts at rest, and nothing has moved it: its smallest gap counts, the largest inward
@@ -99,8 +98,8 @@ def why_no_contact(scene: Scene, strips: Strips, eps_p: NDArray[np.float64], rou
     ``eps_p`` (strips, nu): plastic strains at the end; ``rounds``: since the casing began to
     distort.
     """
-    inward, gap = farthest(strips), float(strips.g0.min())
-    ramp, key = ramp_of(scene.casing), "ramp_rounds" if scene.casing.ramp is None else "ramp"
+    inward, gap = farthest(setup.strips), float(setup.strips.g0.min())
+    ramp, key = setup.ramp, "ramp_rounds" if scene.casing.ramp is None else "ramp"
     share = float(ramp.bounds(ramp.numbers, 0.0, float(rounds))[1])
     smallest_gap = f"the smallest gap is {MICRO * gap:.4g} um"
     what = "scale: 0" if scene.casing.scale == 0 else "the distortion is nowhere inward"

@@ -79,7 +79,7 @@ def at_speeds(
     """
     if choice:
         scene = choice.scene(scene)
-    require_sweep(scene)
+    require_sweep(scene.blade, scene.design, scene.accuracy)
     start_at = before(scene, rom, start)
     in_turn = scene.speeds.in_turn
     from_start = 1 if in_turn else len(speeds)  # in turn only the first: others go on from it
@@ -133,7 +133,7 @@ def set_up(
     """
     setup = prepare(scene, rom, Omega)
     if choice is None:
-        check_resolution(scene, setup)
+        check_resolution(setup, scene.record.samples_per_round, scene.halves)
     return Case(scene, rom, setup, start)
 
 

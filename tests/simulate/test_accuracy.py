@@ -389,7 +389,7 @@ def test_strips_whose_error_exceeds_the_accuracy_are_refused(asking, monkeypatch
     case, rom, *_ = asking
     parts = Parts(step=0.0, strips=0.2, model=0.0)
     monkeypatch.setattr(accuracy, "error_by_part", lambda run, coarse: parts)
-    monkeypatch.setattr(accuracy, "MOST_STRIPS", 16)
+    monkeypatch.setattr(accuracy, "TUNED", replace(accuracy.TUNED, most_strips=16))
     error = refused(SceneError, choose, case.but(accuracy=0.005), rom, ModelError(0.0, None))
     assert (error.key, error.value) == ("accuracy", 0.005) and "16 strips" in error.text
 

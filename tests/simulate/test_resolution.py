@@ -30,7 +30,8 @@ def exact(steps, **changes):
 
 
 def check(case, rom, over_f1=0.3):
-    check_resolution(case, set_up(case, rom, over_f1))
+    setup = set_up(case, rom, over_f1)
+    check_resolution(setup, case.record.samples_per_round, case.halves)
 
 
 def window(case, rom):

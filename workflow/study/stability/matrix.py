@@ -176,9 +176,8 @@ def judge_case(case: Case, rom: Rom) -> End:
     outcome = run.outcome
     exact = references(of) if outcome.status in TO_THE_END else ()
     (by_default,), _ = checked([run], run.scene.checked_share)
-    checked_scene = run.scene.but(verify="every")
-    alone, with_all = _refusal(run.scene, run.setup), _refusal(checked_scene, run.setup)
-    best = judged_run(replace(run, scene=checked_scene))
+    alone, with_all = _refusal(run, halves=False), _refusal(run, halves=True)
+    best = judged_run(replace(run, scene=run.scene.but(verify="every")))
     return End(
         alone or _verdict(run, exact),
         alone or _verdict(by_default, exact),
@@ -191,10 +190,10 @@ def judge_case(case: Case, rom: Rom) -> End:
     )
 
 
-def _refusal(scene: Scene, setup: Setup) -> Verdict | None:
+def _refusal(run: Run, halves: bool) -> Verdict | None:
     """Refusal of the step of a run; None where it is not too long."""
     try:
-        check_resolution(scene, setup)
+        check_resolution(run.setup, run.scene.record.samples_per_round, halves)
     except SceneError as error:
         return _refused(error)
     return None
