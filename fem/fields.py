@@ -119,11 +119,12 @@ def disagreement(
     nodes = around(solid, node)
     cells = cells_of(solid, nodes)
     of_cells, average = solid.V.dofmap.list[cells], _average(solid, cells)
-    found = []
-    for (sigma,) in _rows(solid, u, along, prestress, cells, strain=False):
-        off = sigma - _averaged(average, sigma)[of_cells]
-        found.append(np.sqrt((average[nodes] @ von_mises(off[..., *TENSOR]).ravel() ** 2).max()))
-    return np.array(found)
+    off = (
+        sigma - _averaged(average, sigma)[of_cells]
+        for (sigma,) in _rows(solid, u, along, prestress, cells, strain=False)
+    )
+    squares = (average[nodes] @ von_mises(by[..., *TENSOR]).ravel() ** 2 for by in off)
+    return np.sqrt([of_nodes.max() for of_nodes in squares])
 
 
 def around(solid: Solid, node: int) -> NDArray[np.int64]:
@@ -392,16 +393,14 @@ def gauge_rows(
         As ``grid``.
     """
     solid, A = read_solid(str(mesh_path), blade.material), axes(blade.drawn)
-    order, readings = dofs_at(coordinates, solid.free_coordinates()).ravel(), []
+    order = dofs_at(coordinates, solid.free_coordinates()).ravel()
     placed = [grid(solid, A, gauge, angle) for gauge, angle in grids]
     weights, along = map(np.array, zip(*placed, strict=True))
     nodes = np.flatnonzero(weights.any(axis=0))
-    for u in statics:
-        fields = linearised(solid, u[order], T.T[:, order], blade.prestress, nodes)
-        readings.append(
-            np.einsum("gm,qkmc,gc->qgk", weights[:, nodes], fields, along, optimize=True)
-        )
-    return np.array(readings)
+    fields = (linearised(solid, u[order], T.T[:, order], blade.prestress, nodes) for u in statics)
+    return np.array(
+        [np.einsum("gm,qkmc,gc->qgk", weights[:, nodes], of, along, optimize=True) for of in fields]
+    )
 
 
 def grid(

@@ -8,6 +8,7 @@ from pydantic import Discriminator, Field, Tag
 
 from geometry.base import (
     RPM,
+    Fault,
     Settings,
     SettingsError,
     SettingsFile,
@@ -448,18 +449,17 @@ class Blade(SettingsFile):
     @checked
     def _operates_within_its_speeds(self) -> None:
         given = {"geometry_at": self.geometry_at_rpm or 0.0}
-        for name, rpm in (self.operating_rpm | given).items():
-            require(
-                (
-                    rpm / RPM <= self.top_speed,
-                    f"above the highest speed, {self.top_speed * RPM:.6g} rpm "
-                    f"(max_speed_rpm): raise that",
-                ),
-                kind=SettingsError,
-                key=f"{name}_rpm",
-                value=rpm,
-                allowed={"le": self.top_speed * RPM},
-            )
+        above = (
+            f"above the highest speed, {self.top_speed * RPM:.6g} rpm (max_speed_rpm): raise that"
+        )
+        require(
+            *(
+                (rpm / RPM <= self.top_speed, Fault(above, f"{name}_rpm", rpm))
+                for name, rpm in (self.operating_rpm | given).items()
+            ),
+            kind=SettingsError,
+            allowed={"le": self.top_speed * RPM},
+        )
 
     @checked
     def _patches_or_points(self) -> None:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 
-from geometry.base import MeshError, number, read_text, require, require_file
+from geometry.base import Fault, MeshError, number, read_text, require, require_file
 from geometry.blade import Cad
 from geometry.frame import box, rotation, to_blade
 from geometry.root_and_tip import within_radius
@@ -235,12 +235,10 @@ def _find(cad: Cad, end: str, solid: int, groups: dict[str, list[int]]) -> tuple
         r = np.array([radii(tag) for tag in faces])
         chosen = within_radius(f"cad.{end}", face.radius_mm, r, ROUND_OFF)
         return tuple(compress(faces, chosen))
-    if unknown := [name for name in face.groups if name not in groups]:
-        names = ", ".join(sorted(groups)) or "none; give radius_mm"
-        raise MeshError(
-            f"no face has this name; names: {names}",
-            key=f"cad.{end}.group",
-            value=unknown[0],
-            allowed=sorted(groups),
-        )
+    fault = f"no face has this name; names: {', '.join(sorted(groups)) or 'none; give radius_mm'}"
+    require(
+        *((name in groups, Fault(fault, value=name)) for name in face.groups),
+        key=f"cad.{end}.group",
+        allowed=sorted(groups),
+    )
     return tuple(tag for name in dict.fromkeys(face.groups) for tag in groups[name])

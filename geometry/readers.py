@@ -111,14 +111,16 @@ def read_mesh_file(path: str | Path) -> FileMesh:
 
 
 def _from_meshio(mesh: meshio.Mesh) -> FileMesh:
-    for block in mesh.cells:
-        require(
+    require(
+        *(
             (
                 np.isin(block.data, np.arange(len(mesh.points))).all(),
                 f"a {block.type} names a node that does not exist: is it cut short, or counted "
                 "from another number?",
             )
+            for block in mesh.cells
         )
+    )
     blocks = [block for block in mesh.cells if block.dim == 3]
     groups = _cell_groups(mesh)
     ends = np.cumsum([*map(len, blocks)])

@@ -69,9 +69,8 @@ class Stored:
         geometry.base.errors.WriteError
             When it cannot be written.
         """
-        variables: dict[str, tuple] = {}
-        for f in _stored_fields(self):
-            variables |= _variables(f, getattr(self, f.name))
+        each = (_variables(f, getattr(self, f.name)) for f in _stored_fields(self))
+        variables = {name: of for variables in each for name, of in variables.items()}
         attributes = {"format": FORMAT, "provenance": self.provenance.dump()}
         write(xr.Dataset(variables, coordinates, attributes), path)
 

@@ -16,7 +16,7 @@ import xarray as xr
 from numpy.typing import NDArray
 from scipy.linalg import eigh
 
-from geometry.base import Provenance, code_hash, failed, file_hash, require, sealed
+from geometry.base import Fault, Provenance, code_hash, failed, file_hash, refuse, require, sealed
 from geometry.blade import EnrichedBasis, settings_of_basis
 from geometry.elsewhere import OFF_LINE, SYMMETRIC, tip_checks
 from geometry.tip import cartesian
@@ -53,16 +53,16 @@ def read_elsewhere(path: str | Path, blade: str) -> Rom:
     """
     variables = _values(path)
     rom = _rom(variables, blade, file_hash(path))
-    if faults := (
+    refuse(
         _shape_faults(rom, variables["power"])
         or _tip_faults(rom)
-        or [*islice(_matrix_faults(rom), 1)]
-    ):
-        raise RomError(*faults, file=path)
+        or [*islice(_matrix_faults(rom), 1)],
+        kind=RomError,
+        file=path,
+    )
     f1 = float(rom.modes(0.0)[0][0] / (2 * np.pi))
     rom = rom if "f1" in variables else replace(rom, f1=f1)
-    if faults := _frequency_faults(rom, f1):
-        raise RomError(*faults, file=path)
+    refuse(_frequency_faults(rom, f1), kind=RomError, file=path)
     return rom
 
 
@@ -121,18 +121,22 @@ def _values(path: str | Path) -> dict[str, Any]:
         ) from None
     if missing := [name for name in dims if name not in (*variables, *OPTIONAL)]:
         raise RomError(f"lacks {', '.join(missing)}: {PAGE} says what each is", file=path)
-    for name in (name for name in variables if name not in ("directions", "power")):
-        values, dimensions = variables[name], len(dims[name])
-        require(
+    require(
+        *(
             (
-                values.ndim == dimensions and values.dtype.kind in "iuf",
-                f"{values.ndim} dimensions of type {values.dtype}, needs {dimensions} of real "
-                f"numbers; see {PAGE[:-1]}",
-            ),
-            kind=RomError,
-            file=path,
-            key=name,
-        )
+                values.ndim == len(dims[name]) and values.dtype.kind in "iuf",
+                Fault(
+                    f"{values.ndim} dimensions of type {values.dtype}, needs {len(dims[name])} of "
+                    f"real numbers; see {PAGE[:-1]}",
+                    name,
+                ),
+            )
+            for name, values in variables.items()
+            if name not in ("directions", "power")
+        ),
+        kind=RomError,
+        file=path,
+    )
     return variables
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eigh
 
-from geometry.base import RPM, Provenance, UserError, failed
+from geometry.base import RPM, Provenance, UserError, require
 from geometry.hats import hats, lean, mean, middles, over_edges, projection
 from geometry.stored import Stored, frozen, stored
 from geometry.tip import EDGES, on_line, slope_of_line
@@ -135,7 +135,7 @@ class Rom(Stored):
         ValueError
             If not; the message says which.
         """
-        if faults := failed(
+        require(
             (
                 min(self.Omega_m, self.f1, self.span) > 0,
                 "Omega_m, f1 or span: not positive",
@@ -149,8 +149,8 @@ class Rom(Stored):
                 and 0 < self.across * len(self.xi) * len(self.directions) <= self.n,
                 "directions, xi or camber: too many or too few for M",
             ),
-        ):
-            raise ValueError(faults[0])
+            kind=ValueError,
+        )
         try:
             lowest = eigh(self.K[0], self.M, eigvals_only=True, subset_by_index=[0, 0])[0]
         except np.linalg.LinAlgError:

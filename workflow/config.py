@@ -12,9 +12,9 @@ from geometry.base import (
     NAME,
     Fault,
     Settings,
-    SettingsError,
     check_settings,
     merged,
+    refuse,
 )
 
 A_LIST = "a list has brackets, as in [paper-e1, paper-e10]"
@@ -52,8 +52,7 @@ def read_config(
         for name in getattr(config, key)
         if (fault := _unknown(name, scenes))
     ]
-    if faults:
-        raise SettingsError(*dict.fromkeys(faults))
+    refuse(faults)
     return config
 
 

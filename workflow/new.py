@@ -100,13 +100,11 @@ def _blade(path: Path, file: str | None, folder: Path) -> str:
         raise SettingsError(
             f"unknown kind of file: allowed {', '.join(filter(None, SOURCES))}", file=file
         )
-    values = NOT_READ
-    if suffix in SHOWN and source:
-        values = NOT_READ | _looked_at(source, path.stem)
+    seen = _looked_at(source, path.stem) if suffix in SHOWN and source else {}
     if source and source.resolve().parent != path.parent.resolve():
         shutil.copy(source, path.parent)
     return _filled(
-        f"blade-{SOURCES[suffix]}", name=path.stem, file=source and source.name, **values
+        f"blade-{SOURCES[suffix]}", name=path.stem, file=source and source.name, **NOT_READ | seen
     )
 
 

@@ -14,6 +14,7 @@ from geometry.base.errors import (
     command,
     failed,
     printable,
+    refuse,
     require,
     shown,
 )

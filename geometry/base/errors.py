@@ -1,7 +1,7 @@
 """Errors and warnings for users; any other exception is a bug."""
 
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from functools import wraps
 from typing import Any, NamedTuple, Self
@@ -107,6 +107,17 @@ def require(
     """
     if faults := failed(*checks):
         raise kind(faults[0], **about)
+
+
+def refuse(
+    faults: Iterable[Fault | str], kind: type[UserError] = SettingsError, **about: Any
+) -> None:
+    """Refuse by all ``faults``, a line each; without any nothing is refused.
+
+    ``kind``, ``about``: as of ``require``.
+    """
+    if lines := {str(fault): fault for fault in faults}:
+        raise kind(*lines.values(), **about)
 
 
 @contextmanager

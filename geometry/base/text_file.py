@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 from io import StringIO
 from pathlib import Path
 
-from geometry.base.errors import SettingsError, require, shown
+from geometry.base.errors import Fault, SettingsError, require, shown
 
 MOST_BYTES = 2**26  # of a table; decks of meshes may be larger
 NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eEdD][-+]?\d+)?", re.ASCII)
@@ -24,13 +24,15 @@ def require_file(path: Path, suffixes: Collection[str]) -> None:
     require(
         (
             path.suffix.lower() in suffixes,
-            f"suffix {path.suffix or 'missing'}: known are {', '.join(suffixes)}",
+            Fault(
+                f"suffix {path.suffix or 'missing'}: known are {', '.join(suffixes)}",
+                value=path.suffix,
+                allowed=list(suffixes),
+            ),
         ),
+        (path.is_file(), "there is no such file"),
         kind=SettingsError,
-        value=path.suffix,
-        allowed=list(suffixes),
     )
-    require((path.is_file(), "there is no such file"), kind=SettingsError)
 
 
 def read_text(path: str | Path, most: int | None = MOST_BYTES, errors: str = "strict") -> str:

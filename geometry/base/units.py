@@ -57,8 +57,10 @@ FORMER = {
     },
 }
 # each key by the other one of the same quantity
-OTHER = {key: former.now for key, former in FORMER.items()}
-OTHER |= {now: key for key, now in OTHER.items()}
+OTHER = {
+    **{key: former.now for key, former in FORMER.items()},
+    **{former.now: key for key, former in FORMER.items()},
+}
 
 
 def converted(value: Any, convert: Callable[[float], float]) -> Any:

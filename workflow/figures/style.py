@@ -8,7 +8,6 @@ from typing import Any
 
 import matplotlib as mpl
 import numpy as np
-from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.axes._secondary_axes import SecondaryAxis
 from matplotlib.colors import ListedColormap, LogNorm
@@ -186,9 +185,11 @@ def letter_panels(panels: Iterable[Axes]) -> None:
 
 def legend(drawn: Figure, place: str, **look: Any) -> None:
     """Add a legend of all axes at ``place`` outside of them, each label once."""
-    shown: dict[str, Artist] = {}
-    for axes in drawn.axes:
-        shown |= dict(zip(*reversed(axes.get_legend_handles_labels()), strict=True))
+    shown = {
+        label: handle
+        for axes in drawn.axes
+        for handle, label in zip(*axes.get_legend_handles_labels(), strict=True)
+    }
     drawn.legend(shown.values(), shown.keys(), loc=f"outside {place}", **look)
 
 

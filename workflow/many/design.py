@@ -22,7 +22,7 @@ from typing import Any, Self
 
 import numpy as np
 
-from geometry.base import Fault, SettingsError, check_settings, csv_rows, number, parse
+from geometry.base import Fault, SettingsError, check_settings, csv_rows, number, parse, refuse
 from simulate.scene import Scene, own_laws
 from workflow.many.columns import COLUMN, keys, placed, value_at
 from workflow.many.row import Row
@@ -89,12 +89,12 @@ class Design:
         if path.suffix in (".yaml", ".yml"):
             sobol = Sobol.load(path)
             columns = [key for factor in sobol.factors.values() for key in factor.keys]
-            _require_columns(path, columns, base)
-            _require_numbers(path, columns, base)
+            refuse(_column_faults(columns, base), file=path)
+            refuse(_number_faults(columns, base), file=path)
             return cls(*about, columns, sobol.rows, tuple(blades), tuple(files), sobol=sobol)
         lines = _lines(path)
         columns, count = next(lines, []), 0
-        _require_columns(path, columns, base)
+        refuse(_column_faults(columns, base), file=path)
         at = columns.index(BLADE) if BLADE in columns else len(columns)
         first: list[list[str]] = []
         for count, line in enumerate(lines, 1):
@@ -104,7 +104,7 @@ class Design:
             files |= dict.fromkeys(filter(FILE.search, line))
         if not count:
             raise SettingsError("needs a header of keys and at least one row", file=path)
-        _require_keys(path, base, columns, first)
+        refuse(_key_faults(base, columns, first), file=f"{path}: column")
         named = (_read(cell) for cell in blades)  # another value is refused in its row
         blades = [name for name in named if isinstance(name, str)]
         texts = {text for cell in files for text in _texts(_read(cell))}
@@ -172,19 +172,11 @@ def _lines(path: Path) -> Iterator[list[str]]:
         raise error.within(path) from None
 
 
-def _require_columns(path: Path, columns: Sequence[str], base: Scene) -> None:
-    """Refuse columns that no row may have.
-
-    Raises
-    ------
-    SettingsError
-        With a line for each.
-    """
-    faults = [
+def _column_faults(columns: Sequence[str], base: Scene) -> list[Fault]:
+    """Columns that no row may have."""
+    return [
         Fault(fault, "column", name) for name in columns for fault in _refused(name, columns, base)
     ]
-    if faults:
-        raise SettingsError(*dict.fromkeys(faults), file=path)
 
 
 def _refused(name: str, columns: Sequence[str], base: Scene) -> list[str]:
@@ -202,16 +194,8 @@ def _refused(name: str, columns: Sequence[str], base: Scene) -> list[str]:
     return faults + ["is there twice"] * (columns.count(name) > 1)
 
 
-def _require_keys(
-    path: Path, base: Scene, columns: Sequence[str], lines: Iterable[Sequence[str]]
-) -> None:
-    """Refuse columns that are no keys of the scene in any of the ``lines`` that have a value there.
-
-    Raises
-    ------
-    SettingsError
-        With a line for each.
-    """
+def _key_faults(base: Scene, columns: Sequence[str], lines: Iterable[Sequence[str]]) -> list[Fault]:
+    """Columns that are no keys of the scene in any of the ``lines`` that have a value there."""
     values, unknown, known = base.model_dump(exclude_unset=True), {}, set()
     for line in lines:
         faults = {}
@@ -225,9 +209,7 @@ def _require_keys(
                 unknown[column] = faults[above[0]]
             elif cell not in ("", "null"):
                 known.add(column)
-    wrong = {str(fault): fault for column, fault in unknown.items() if column not in known}
-    if wrong:
-        raise SettingsError(*wrong.values(), file=f"{path}: column")
+    return [fault for column, fault in unknown.items() if column not in known]
 
 
 def _scene(values: dict[str, Any], columns: Sequence[str], line: Sequence[Any]) -> Scene:
@@ -246,22 +228,14 @@ def _is_number(value: Any) -> bool:
     return isinstance(value, int | float) and abs(value) < sys.float_info.max
 
 
-def _require_numbers(path: Path, columns: Sequence[str], base: Scene) -> None:
-    """Refuse factors on keys that are no numbers in the scene.
-
-    Raises
-    ------
-    SettingsError
-        With a line for each.
-    """
-    faults = [
+def _number_faults(columns: Sequence[str], base: Scene) -> list[Fault]:
+    """Factors on keys that are no numbers in the scene."""
+    return [
         Fault("in the scene: should be a number", f"factors.{column}", value)
         for column in columns
         for value in [value_at(base, column)]
         if isinstance(value, bool) or not isinstance(value, int | float)
     ]
-    if faults:
-        raise SettingsError(*faults, file=path)
 
 
 def _cell(text: Any) -> Any:

@@ -26,6 +26,7 @@ from geometry.base import (
     SettingsFile,
     check_settings,
     checked,
+    refuse,
     yaml_file,
 )
 from simulate.scene import Scene
@@ -202,8 +203,7 @@ def cases(path: str | Path) -> list[Row]:
         if against is not None and (label, against) not in labelled and not faults:
             text = f"is no row on the scene {label!r}"
             faults.append(Fault(text, "against", against, file=str(path)))
-    if faults:
-        raise SettingsError(*{str(fault): fault for fault in faults}.values())
+    refuse(faults)
     return planned
 
 

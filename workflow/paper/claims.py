@@ -227,8 +227,10 @@ def lobes(numbers: Numbers) -> Finding:
     statements, between = [], []
     for part, name in COATING.items():
         peaks = {k: _peak(numbers, part, k) for k in (4, 6)}
-        counts = {where: (n, 2) for where, n in numbers[part]["lobes"].items()}
-        counts |= {f"at k = {k}": (peak["lobes"], k) for k, peak in peaks.items()}
+        counts = {
+            **{where: (n, 2) for where, n in numbers[part]["lobes"].items()},
+            **{f"at k = {k}": (peak["lobes"], k) for k, peak in peaks.items()},
+        }
         statements += [equal(f"{name}, {where}", *count) for where, count in counts.items()]
         between += [peak["between_lobes"] for peak in peaks.values()]
     return Finding(
