@@ -132,9 +132,8 @@ def _start(
     outputs = np.vstack([setup.Phi_out, setup.Phi_timing])
     kept = _room(record, rounds, len(outputs), state.motion.x.shape[1])
     Phi_out = padded_rows(outputs)
-    share = force_weights(setup.places.ends)[: kept[1].shape[2]]
-    over_radial = np.stack([setup.places.secant, np.ones_like(setup.places.secant)])
-    weights = share * over_radial[:, None]
+    share, secant = force_weights(setup.places.ends)[: kept[1].shape[2]], setup.places.secant
+    weights = share * np.stack([secant, np.ones_like(secant)])[:, None]
 
     def arguments(done: int, before: int = 0) -> tuple[Any, ...]:
         """Of the kernel in revolution ``done``, from 0, after ``before`` of another run."""
@@ -178,7 +177,11 @@ def march(scene: Scene, setup: Setup, start: FinalState | Worn | None = None) ->
     both_steady = [STEADY] * 2 if scene.until else None  # at two looks in turn
     thin = 2 - scene.record.samples_per_round % 2  # twice as many readings cost a run 2 % more
     of_round = scene.record.samples_per_round // thin, len(setup.Phi_gauges)
-    gauges, most = np.full((least, *of_round), np.nan), _most_strained(scene.record, setup)
+    gauges, most = np.full((least, *of_round), np.nan), None
+    if (mode := scene.record.motion) is not None:
+        samples_per_round = scene.record.samples_per_round
+        pictures = every(mode, samples_per_round, setup.omega, setup.Omega)
+        most = MostStrained.room(setup.omega, pictures, samples_per_round)
     while done < scene.rounds and end == RUNNING and words[-2:] != both_steady:
         of_kernel = arguments(done, first)
         touched, step, end, node = kernel(*of_kernel)
@@ -251,14 +254,6 @@ def march(scene: Scene, setup: Setup, start: FinalState | Worn | None = None) ->
         if status == "no-contact"
         else "",
     )
-
-
-def _most_strained(record: Record, setup: Setup) -> MostStrained | None:
-    """Room for the revolutions that strain the blade most, where a motion is recorded."""
-    if record.motion is None:
-        return None
-    thin = every(record.motion, record.samples_per_round, setup.omega, setup.Omega)
-    return MostStrained.room(setup.omega, thin, record.samples_per_round)
 
 
 def _once(most: MostStrained, setup: Setup) -> dict[str, NDArray[Any]]:

@@ -17,7 +17,6 @@ from geometry.base import UserError, whole
 from rom.model import Rom
 from simulate.contact.gaps import gaps_at, given_gaps
 from simulate.contact.places import share_weights
-from simulate.contact.ramp import ramp_of
 from simulate.errors.accuracy import Choice
 from simulate.errors.run import as_long
 from simulate.marching import FinalState, Outcome, Setup, Worn, check_scene, march, prepare
@@ -122,7 +121,7 @@ def _rub(
         ended=None if rounds == scene.rounds and outcomes[-1].final else outcomes[-1].status,
         inward=inward,
         travels=bool(scene.casing.travelling),
-        share=ramp_of(scene.casing).at(times).reshape(u_r.shape),
+        share=setup.ramp.at(times).reshape(u_r.shape),
         wear=np.array([leading @ rods, *(leading @ outcome.wear for outcome in outcomes)]) / gap,
         u_r=u_r / gap,
     )
