@@ -8,15 +8,19 @@ import pytest
 from made_sweeps import made_rom
 from scenes import of_steps, scene
 
+from simulate.errors.observables import numbers
+from simulate.errors.run import Case
 from simulate.loads import (
     mean_force,
     mean_opening,
     tangential_moment,
     torque,
     torque_of_rounds,
+    worn_per_pass,
     worn_volume,
 )
 from simulate.marching import march, prepare
+from simulate.scene import LEADING
 from simulate.sweeps import over_speeds
 from simulate.sweeps.over_speeds import as_sweep, at_speeds
 
@@ -107,6 +111,19 @@ def test_torque_that_wears_a_groove_and_that_runs_in_it(rigid, steps, rods):
     assert worn_volume(run.wear, width, radius) == pytest.approx(volume, rel=1e-3)
     swept = 2 * np.pi * (width @ radius)
     assert mean_opening(run.wear, width, radius) == pytest.approx(volume / swept, rel=1e-3)
+    per_pass = volume / swept / EXACT["rounds"]  # all is worn in the first, over all of them
+    assert worn_per_pass(run.each.worn, width, radius) == pytest.approx(per_pass, rel=1e-3)
+
+
+def test_the_tip_speed_is_the_speed_times_the_radius_of_the_tip(rigid):
+    """In a row of other numbers, at 100 rad/s."""
+    case = scene(**EXACT | {"liner__law": LAWS["plastic"]})
+    run = Case(case, rigid, prepare(case, rigid, 100.0)).march()
+    places = run.setup.places
+    radius = np.interp(LEADING, places.xi, places.radius)
+    found = numbers(run)
+    assert found["tip_speed"] == pytest.approx(100.0 * radius, rel=1e-3)
+    assert found["worn_per_pass"] * EXACT["rounds"] == pytest.approx(found["opening"], rel=1e-6)
 
 
 def test_torque_of_a_tilted_tip_is_the_moment_of_its_tangential_force(rigid):

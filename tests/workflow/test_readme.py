@@ -256,9 +256,10 @@ def test_the_figure_that_the_page_adds_is_drawn(tmp_path):
         ("C12", "workflow/paper/claims.py", 2),
         ("rule mesh_error", "workflow/rules/study.smk", 1),
         ("study.mesh_error", "workflow/scripts/mesh_error.py", 1),
+        ("worn_per_pass", "simulate/errors/schema.py", 1),
     ],
 )
-def test_the_claim_and_the_study_that_the_page_shows_are_those_of_the_code(words, file, count):
+def test_claim_study_and_column_that_the_page_shows_are_those_of_the_code(words, file, count):
     code = re.sub(r"\s", "", (ROOT / file).read_text())
     shown = [block for block in blocks("CONTRIBUTING.md", "(?:python|text)") if words in block]
     assert len(shown) == count

@@ -6,13 +6,19 @@ from types import SimpleNamespace
 
 import pytest
 from made_sweeps import made_rom
+from runs import swept
+from scenes import scene
 
 from geometry.base import write_json
 from geometry.tip import EDGES
-from simulate.errors.model_errors import BEYOND
+from simulate.errors import schema
+from simulate.errors.model_errors import BEYOND, ModelError
 from simulate.errors.neighbour import ONE_MOTION, TWO_MOTIONS
+from simulate.errors.schema import CONTACT, Quantity
 from simulate.scene import DYING_OUT, GROWING, TRENDS
 from simulate.sweeps.crossings import critical
+from simulate.sweeps.peak import Peak
+from simulate.sweeps.peak_results import results
 from simulate.sweeps.result_types import NO_CROSSING
 from workflow import stress_told, summary
 
@@ -400,3 +406,36 @@ def test_where_there_is_no_peak_is_said_where_it_was_sought(summed):
     at_rest = summary.terminal(summed(status={"no-contact": 3}, peaks=[]))
     assert "none, as nothing moves the blade: it is at rest at all speeds" in at_rest
     assert "At 5 of 41 speeds the largest line is a free" in summary.terminal(summed(free=5))
+
+
+def test_one_entry_brings_a_number_to_peaks_csv_tables_and_legend(summed, coarse_rom, monkeypatch):
+    """With its +-, in its unit."""
+    deepest = Quantity(
+        name="deepest",
+        unit="m",
+        meaning="deepest wear of all rods",
+        of=lambda run: float(run.wear.max()),
+        peak=CONTACT,
+        head="deepest µm",
+        shown=("um", 1e6),
+        loads=True,
+        goes_on=True,
+        legend=("deepest", "wear of all rods"),
+    )
+    monkeypatch.setattr(schema, "QUANTITIES", (*schema.QUANTITIES, deepest))
+    runs = swept(scene(rounds=3, speeds={"over_f1": [0.3]}), coarse_rom)
+    (peak,) = results(
+        runs, coarse_rom, ModelError(1e-4, None), peaks=[Peak(None, 0, 0.3, status="ok")]
+    )
+    depth, error = 1e6 * peak.numbers["deepest"], 1e6 * peak.errors["deepest"]
+    assert depth == pytest.approx(1e6 * runs["wear"].max().item()) and depth > error > 0
+    found = summed({"numbers": peak.numbers, "errors": peak.errors})
+    row = read_csv(found)
+    assert float(row["deepest (um)"]) == pytest.approx(depth, rel=1e-5)
+    assert float(row["deepest +- (um)"]) == pytest.approx(error, rel=1e-5)
+    assert row["tip_speed (m/s)"] and not row["tip_speed +- (m/s)"]
+    assert float(row["worn_per_pass +- (um per pass)"]) > 0
+    _, (heads, (cells,)) = summary.shown(found["scenes"][0])
+    assert float(cells[heads.index("deepest µm")].split()[0]) == pytest.approx(depth, rel=0.01)
+    assert cells[heads.index("tip m/s")] and cells[heads.index("worn µm per pass")]
+    assert "- deepest: wear of all rods.\n- mode:" in summary.meaning()
