@@ -109,6 +109,7 @@ def panels(
     used = grid[:, 0]
     for axes, name in zip(used, shown, strict=True):
         unit, scale = of_peaks()[name].shown
+        unit = unit.replace("mm3", "mm³")
         for number, scene in enumerate(loads):
             _draw(axes, scene, name, scale, number)
         axes.set(ylabel=f"{PANELS[name]} ({unit})".replace("\n ", "\n"), ylim=(0, None))
