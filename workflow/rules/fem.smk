@@ -38,10 +38,7 @@ rule assemble:
     params:
         blade=blades.file,
         uses=blades.uses(*FEM_USES),
-        basis=lambda wildcards: (
-            blades.speeds_of_basis(wildcards),
-            blades.of(wildcards).basis.tolerance_percent,  # it decides on more
-        ),
+        basis=blades.speeds_of_basis,
     message:
         "M and K(Omega) of blade {wildcards.blade} at the speeds of the basis"
     script:

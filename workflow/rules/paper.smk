@@ -21,19 +21,13 @@ rule paper_beyond:
         pictures(["long-times"]),
 
 
-rule paper_uncertainty:
-    input:
-        further.files("paper_uncertainty"),
+for target in ("paper_uncertainty", "paper_causes", "paper_rotor37"):
 
-
-rule paper_causes:
-    input:
-        further.files("paper_causes"),
-
-
-rule paper_rotor37:
-    input:
-        further.files("paper_rotor37"),
+    rule:
+        name:
+            target
+        input:
+            further.files(target),
 
 
 rule paper_grid:
@@ -112,15 +106,8 @@ rule paper_model:
 rule paper_settled:
     input:
         rom="results/paper/rom-r.nc",
-        densities=[
-            "results/paper/paper-density-1/sweep.nc",
-            "results/paper/paper-density-4/sweep.nc",
-        ],
-        steps=[
-            "results/paper/paper-step-08/sweep.nc",
-            "results/paper/paper-step-04/sweep.nc",
-            "results/paper/paper-step-02/sweep.nc",
-        ],
+        densities=paper.sweeps("density-1", "density-4"),
+        steps=paper.sweeps("step-08", "step-04", "step-02"),
         stress="results/paper/paper-e10/stress.json",
         code=code_of("paper_settled"),
     output:
@@ -149,10 +136,7 @@ rule paper_numbers:
         rom="results/paper/rom-r.nc",
         grid="results/experiments/grid/table.json",
         growth="results/experiments/grid/growth.json",
-        more=[
-            "results/paper/paper-model.json",
-            "results/paper/settled.json",
-        ],
+        more=["results/paper/paper-model.json", "results/paper/settled.json"],
         code=code_of("paper_numbers"),
     output:
         json="results/paper/numbers.json",

@@ -92,7 +92,7 @@ rule check_rom:
     params:
         settings=blades.file,
         speeds=lambda wildcards: (
-            blades.speeds_of_basis(wildcards) if blades.mesh(wildcards) else None
+            blades.speeds_of_basis(wildcards)[0] if blades.mesh(wildcards) else None
         ),
         tolerance=lambda wildcards: blades.of(wildcards).basis.tolerance_percent,
     message:

@@ -42,8 +42,8 @@ rule summary:
         "results/logs/summary.log",
     localrule: True
     params:
-        operating={blade: project.operating(blade) for blade in project.delivered_blades},
-        others=project.others_with_results(),
+        operating=project.operating_of_delivered,
+        others=project.others_with_results,
     message:
         "Summary of the run"
     script:
@@ -52,18 +52,7 @@ rule summary:
 
 # Where tables of designs and the summary were among what was asked for, they are the last that the terminal shows.
 onsuccess:
-    made = {str(file) for job in workflow.dag.jobs for file in job.output}
-    for name in [name for name, scene in DELIVERED.items() if scene.design]:
-        pictures = [f"results/figures/{kind}-{name}.png" for kind in ("design", "sensitivity")]
-        files = [f"results/{DELIVERED[name].blade}/{name}/design.csv", *pictures]
-        if found := [file for file in files if file in made]:
-            print(
-                f"Design of scene {name}: {', '.join(found)}; {table_words(files[0])}.",
-                flush=True,
-            )
-    for path in sorted(
-        file for file in made if re.fullmatch(r"results/experiments/[^/]+/table\.csv", file)
+    for words in closing_words(
+        project, {str(of) for job in workflow.dag.jobs for of in job.output}
     ):
-        print(f"Experiment: {path}; {table_words(path)}.", flush=True)
-    if SUMMARY in made:
-        print(last_words("results"), flush=True)
+        print(words, flush=True)

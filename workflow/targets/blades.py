@@ -3,6 +3,7 @@
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import chain
 from pathlib import Path
 from typing import Any, Self
@@ -37,12 +38,12 @@ class Blades:
             *([name for name in names if _has(name, key)] for key in keys),
         )
 
-    @property
+    @cached_property
     def meshed(self) -> list[str]:
         """Names of those that are meshed."""
         return [name for name in self.reduced if name not in self.with_matrices]
 
-    @property
+    @cached_property
     def reduced(self) -> list[str]:
         """Names of those whose reduced model is made here."""
         return [name for name in self.settings if name not in self.foreign]
@@ -93,14 +94,15 @@ class Blades:
         """The settings that determine the basis: all but the tolerance of its check."""
         return Told(self.of(wildcards).basis.model_dump(mode="json", exclude={"tolerance_percent"}))
 
-    def speeds_of_basis(self, wildcards: Any) -> list[float]:
-        """Speeds at which the reduced model needs the full matrices, rad/s."""
+    def speeds_of_basis(self, wildcards: Any) -> tuple[list[float], float]:
+        """Speeds, rad/s, at which the basis needs the full matrices, and what decides on more."""
         blade = self.of(wildcards)
-        return basis_speeds(blade.basis, blade.top_speed).tolist()
+        speeds = basis_speeds(blade.basis, blade.top_speed).tolist()
+        return speeds, blade.basis.tolerance_percent
 
     def speeds_of_check(self, wildcards: Any) -> list[float]:
         """Speeds at which the reduced model is checked, rad/s."""
-        return check_speeds(self.speeds_of_basis(wildcards)).tolist()
+        return check_speeds(self.speeds_of_basis(wildcards)[0]).tolist()
 
     def mesh(self, wildcards: Any) -> list[str] | str:
         """The blade's mesh, where it has one."""

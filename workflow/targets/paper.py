@@ -26,6 +26,11 @@ FOLDERS = {
 type Files = Mapping[str, str]  # by what they are
 
 
+def sweeps(*names: str) -> list[str]:
+    """Sweeps of the paper's scenes of these names, after `paper-`."""
+    return [f"results/paper/paper-{name}/sweep.nc" for name in names]
+
+
 def folders() -> dict[str, list[str]]:
     """Paths of ``FOLDERS``."""
     return {target: [f"results/{name}" for name in names] for target, names in FOLDERS.items()}

@@ -125,7 +125,11 @@ class Project:
             for name, scene in self.sweeps.items()
         ]
 
-    def others_with_results(self) -> list[str]:
+    def operating_of_delivered(self, wildcards: Any) -> dict[str, Any]:
+        """The same of every blade to deliver."""
+        return {blade: self.operating(blade) for blade in self.delivered_blades}
+
+    def others_with_results(self, wildcards: Any) -> list[str]:
         """Scenes that are there, have results of the summary, and are not to be delivered."""
         found = {path.parent.name for path in Path("results").glob("*/*/answers.json")}
         return sorted(found & self.scenes.keys() - self.sweeps.keys())

@@ -1,0 +1,40 @@
+"""What the terminal shows of a run: refusals as sentences, and its last words."""
+
+import re
+from collections.abc import Collection, Iterator
+from logging import LogRecord
+
+from workflow.many.table import last_words as words_of_table
+from workflow.summary import last_words
+from workflow.targets.project import SUMMARY, Project
+
+REFUSED = r"WorkflowError in file|InputFunctionException[\s\S]*?\n +SettingsError:"
+AROUND = r"^[\s\S]*?(Workflow|Settings)Error.*\n *|\nWildcards:[\s\S]*|\n +File \"[\s\S]*"
+
+
+def without_sources(record: LogRecord) -> bool:
+    """Leave the modules that a job imports out of a message: errors then name files of users."""
+    if isinstance(files := getattr(record, "input", None), list):
+        record.input = [file for file in files if not file.endswith(".py")]
+    return True
+
+
+def without_traceback(record: LogRecord) -> bool:
+    """Of what is refused of files or requests of users, leave the sentences alone."""
+    if re.match(REFUSED, text := str(record.msg)):
+        record.msg = re.sub(AROUND, "", text)
+    return True
+
+
+def closing_words(project: Project, made: Collection[str]) -> Iterator[str]:
+    """Of tables of designs and experiments, and the summary, as far as they were ``made``."""
+    for name, scene in project.designs.items():
+        drawn = [f"results/figures/{kind}-{name}.png" for kind in ("design", "sensitivity")]
+        files = [f"results/{scene.blade}/{name}/design.csv", *drawn]
+        if found := [file for file in files if file in made]:
+            yield f"Design of scene {name}: {', '.join(found)}; {words_of_table(files[0])}."
+    for path in sorted(made):
+        if re.fullmatch(r"results/experiments/[^/]+/table\.csv", path):
+            yield f"Experiment: {path}; {words_of_table(path)}."
+    if SUMMARY in made:
+        yield last_words("results")
