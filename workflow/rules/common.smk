@@ -2,22 +2,28 @@
 import logging
 import re
 import sys
+import warnings
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
 
-from geometry.base import WARNING, SettingsError
+from geometry.base import WARNING, Caution, SettingsError
 from geometry.blade import SOURCES
 from workflow.at_work import ANOTHER, hold
 from workflow.figures import table
 from workflow.targets import paper
 from workflow.targets.experiments import Experiments
 from workflow.targets.inputs import code_of, one_of, own_files
-from workflow.targets.messages import closing_words, without_sources, without_traceback
+from workflow.targets.messages import closing_words, in_one_line, without_sources, without_traceback
 from workflow.targets.project import Project, pictures
 
 for of_messages in (without_sources, without_traceback):
     logging.getLogger("snakemake.logging").addFilter(of_messages)
+
+if workflow.is_main_process:
+    warnings.showwarning = in_one_line
+else:  # a job's own run of Snakemake, after the first has told them
+    warnings.filterwarnings("ignore", category=Caution)
 
 # Not by `configfile:`, which takes the last of equal keys. `config`: what --config gives.
 try:

@@ -1,9 +1,12 @@
 """What the terminal shows of a run: refusals as sentences, and its last words."""
 
 import re
+import sys
 from collections.abc import Collection, Iterator
 from logging import LogRecord
+from typing import Any
 
+from geometry.base import WARNING
 from workflow.many.table import last_words as words_of_table
 from workflow.summary import last_words
 from workflow.targets.project import SUMMARY, Project
@@ -24,6 +27,11 @@ def without_traceback(record: LogRecord) -> bool:
     if re.match(REFUSED, text := str(record.msg)):
         record.msg = re.sub(AROUND, "", text)
     return True
+
+
+def in_one_line(message: Warning | str, *_: Any, **__: Any) -> None:
+    """Show a warning as a line, in place of ``warnings.showwarning``."""
+    print(f"{WARNING}{message}", file=sys.stderr)
 
 
 def closing_words(project: Project, made: Collection[str]) -> Iterator[str]:
