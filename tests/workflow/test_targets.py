@@ -2,6 +2,7 @@
 
 import pickle
 import shutil
+from logging import LogRecord
 from types import SimpleNamespace
 
 import pytest
@@ -11,6 +12,7 @@ from projects import ROOT
 from geometry.base import SettingsError, sources_of
 from workflow.targets.experiments import Experiments
 from workflow.targets.inputs import ROOT as OF_CODE, Once, Told, code_of, here, one_of
+from workflow.targets.messages import without_traceback
 from workflow.targets.paper import Further
 from workflow.targets.project import Project, pictures
 
@@ -257,3 +259,11 @@ def test_code_of_a_script_is_what_that_imports():
 
 def test_a_pattern_without_names_matches_nothing():
     assert one_of(["a+b", "c"]) == r"a\+b|c" and one_of([]) == "(?!)"
+
+
+def test_of_a_refusal_the_terminal_has_the_sentence_alone():
+    refused = "InputFunctionException in rule a in file b, line 1:\nError:\n  SettingsError: c: d\n"
+    record = LogRecord("", 0, "", 0, f"{refused}Wildcards:\n  scene=c\nTraceback:\n", (), None)
+    assert without_traceback(record) and record.msg == "c: d"
+    record.msg = "a bug"
+    assert without_traceback(record) and record.msg == "a bug"

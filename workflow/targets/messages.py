@@ -11,8 +11,8 @@ from workflow.many.table import last_words as words_of_table
 from workflow.summary import last_words
 from workflow.targets.project import SUMMARY, Project
 
-REFUSED = r"WorkflowError in file|InputFunctionException[\s\S]*?\n +SettingsError:"
-AROUND = r"^[\s\S]*?(Workflow|Settings)Error.*\n *|\nWildcards:[\s\S]*|\n +File \"[\s\S]*"
+REFUSED = r"WorkflowError in file|InputFunctionException[\s\S]*?\n +SettingsError: "
+AROUND = r"^[\s\S]*?(WorkflowError.*\n *|SettingsError: )|\nWildcards:[\s\S]*|\n +File \"[\s\S]*"
 
 
 def without_sources(record: LogRecord) -> bool:
