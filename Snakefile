@@ -13,17 +13,12 @@ rule all:
         project.delivered_files,
 
 
-include: "workflow/rules/geometry.smk"
-include: "workflow/rules/fem.smk"
-include: "workflow/rules/rom.smk"
-include: "workflow/rules/simulate.smk"
-include: "workflow/rules/fields.smk"
-include: "workflow/rules/summary.smk"
-include: "workflow/rules/figures.smk"
-include: "workflow/rules/experiment.smk"
-include: "workflow/rules/study.smk"
-include: "workflow/rules/paper.smk"
-include: "workflow/rules/explore.smk"
+for part in (
+    *("geometry", "fem", "rom", "simulate", "fields", "summary"),
+    *("figures", "experiment", "study", "paper", "explore"),
+):
+
+    include: f"workflow/rules/{part}.smk"
 
 
 onstart:

@@ -3,11 +3,12 @@ import logging
 import re
 import sys
 import warnings
+from functools import partial
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
 
-from geometry.base import WARNING, Caution, SettingsError
+from geometry.base import WARNING, SettingsError
 from geometry.blade import SOURCES
 from workflow.at_work import ANOTHER, hold
 from workflow.figures import table
@@ -20,11 +21,7 @@ from workflow.targets.project import Project, pictures
 for of_messages in (without_sources, without_traceback):
     logging.getLogger("snakemake.logging").addFilter(of_messages)
 
-if workflow.is_main_process:
-    warnings.showwarning = in_one_line
-else:  # a job's own run of Snakemake, after the first has told them
-    warnings.filterwarnings("ignore", category=Caution)
-
+warnings.showwarning = partial(in_one_line, shown=workflow.is_main_process)
 # Not by `configfile:`, which takes the last of equal keys. `config`: what --config gives.
 try:
     project = Project.read(config)
@@ -41,3 +38,4 @@ wildcard_constraints:
     block=r"\d+",
     row=r"\d+",
     directions="r|rt|rtz",
+    experiment=r"[^/]+",

@@ -1,8 +1,4 @@
 # Experiments: workflow/experiments/NAME.yaml, its rows in blocks, and their picture.
-wildcard_constraints:
-    experiment=r"[^/]+",
-
-
 # Rows that are done are in `rows`, which Snakemake does not know, as those of designs.
 rule experiment_block:
     input:
@@ -36,8 +32,6 @@ rule experiment:
         markdown="results/experiments/{experiment}/table.md",
     log:
         "results/experiments/{experiment}/logs/table.log",
-    benchmark:
-        "results/experiments/{experiment}/benchmarks/table.tsv"
     localrule: True
     params:
         folder="results/experiments/{experiment}/rows",

@@ -30,8 +30,6 @@ rule gauges_csv:
         csv="results/{blade}/{scene}/gauges.csv",
     log:
         "results/{blade}/{scene}/logs/gauges.csv.log",
-    benchmark:
-        "results/{blade}/{scene}/benchmarks/gauges.csv.tsv"
     localrule: True
     params:
         blade=blades.file,

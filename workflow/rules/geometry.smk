@@ -25,7 +25,4 @@ rule build_mesh:
 
 rule mesh:
     input:
-        expand(
-            "results/{blade}/blade.msh",
-            blade=[name for name in project.delivered_blades if name in blades.meshed],
-        ),
+        [f"results/{name}/blade.msh" for name in project.delivered_blades if name in blades.meshed],

@@ -38,8 +38,6 @@ rule paper_grid:
         json="results/paper/grid.json",
     log:
         "results/paper/logs/grid.log",
-    benchmark:
-        "results/paper/benchmarks/grid.tsv"
     message:
         "Table of E and K"
     script:
@@ -72,8 +70,6 @@ rule paper_worst:
         json="results/paper/growth.json",
     log:
         "results/paper/logs/growth.log",
-    benchmark:
-        "results/paper/benchmarks/growth.tsv"
     message:
         "Worst coatings over 200 revolutions, and the bare casing"
     script:
@@ -125,7 +121,6 @@ rule paper_settled:
         "../scripts/paper_settled.py"
 
 
-# Sweeps by part of the claims.
 rule paper_numbers:
     input:
         e1="results/paper/paper-e1/sweep.nc",
@@ -185,8 +180,6 @@ rule paper_claims:
         html="results/paper/index.html",
     log:
         "results/paper/logs/claims.log",
-    benchmark:
-        "results/paper/benchmarks/claims.tsv"
     params:
         further=further.existing,
         times=further.times,
@@ -206,8 +199,6 @@ rule paper_conclusions:
         markdown="results/paper/conclusions.md",
     log:
         "results/paper/logs/conclusions.md.log",
-    benchmark:
-        "results/paper/benchmarks/conclusions.md.tsv"
     message:
         "What a reader may conclude"
     script:
@@ -222,8 +213,6 @@ rule paper_cost:
         markdown="results/paper/cost.md",
     log:
         "results/paper/logs/cost.md.log",
-    benchmark:
-        "results/paper/benchmarks/cost.md.tsv"
     params:
         targets=paper.folders(),
     message:

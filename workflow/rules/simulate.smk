@@ -170,8 +170,6 @@ rule design_csv:
         csv="results/{blade}/{scene}/design.csv",
     log:
         "results/{blade}/{scene}/logs/design.csv.log",
-    benchmark:
-        "results/{blade}/{scene}/benchmarks/design.csv.tsv"
     localrule: True
     params:
         blade=blades.file,

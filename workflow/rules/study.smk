@@ -4,8 +4,7 @@ STUDIES = {
     "study_rotor37": "results/experiments/frequencies/table.md",
     "stability": [
         "results/figures/stability.png",
-        "results/experiments/extremes/table.json",
-        "results/experiments/extreme-sweeps/table.json",
+        *expand("results/experiments/{of}/table.json", of=["extremes", "extreme-sweeps"]),
     ],
     "trade": "results/experiments/trade/table.md",
 }
@@ -20,7 +19,6 @@ for target, files in STUDIES.items():
 
 
 rule mesh_error:
-    # also for scenes with an accuracy
     input:
         full="results/{blade}/full-model.nc",
         source=blades.source,
@@ -49,8 +47,6 @@ rule interface:
         markdown="results/interface/interface.md",
     log:
         "results/interface/logs/interface.md.log",
-    benchmark:
-        "results/interface/benchmarks/interface.md.tsv"
     localrule: True
     message:
         "Changes with mesh, patches, strips and modes"

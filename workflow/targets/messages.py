@@ -29,9 +29,13 @@ def without_traceback(record: LogRecord) -> bool:
     return True
 
 
-def in_one_line(message: Warning | str, *_: Any, **__: Any) -> None:
-    """Show a warning as a line, in place of ``warnings.showwarning``."""
-    print(f"{WARNING}{message}", file=sys.stderr)
+def in_one_line(message: Warning | str, *_: Any, shown: bool, **__: Any) -> None:
+    """Show a warning as a line, in place of ``warnings.showwarning``.
+
+    Not ``shown`` by a job's own run of Snakemake: the first run has told it.
+    """
+    if shown:
+        print(f"{WARNING}{message}", file=sys.stderr)
 
 
 def closing_words(project: Project, made: Collection[str]) -> Iterator[str]:
