@@ -1,5 +1,4 @@
 # Experiments: workflow/experiments/NAME.yaml, its rows in blocks, and their picture.
-# Rows that are done are in `rows`, which Snakemake does not know, as those of designs.
 rule experiment_block:
     input:
         models=experiments.models,

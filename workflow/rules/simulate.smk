@@ -83,8 +83,7 @@ rule sweep:
         "../scripts/sweep.py"
 
 
-# Rows that are done are in the folder `rows`, which Snakemake does not know: a block that is started anew, by a change or another
-# number of blocks, marches only rows that are not there.
+# Rows that are done are in the folder `rows`, unknown to Snakemake: a block that is started anew marches only others.
 rule design_block:
     input:
         code=code_of("design_block"),
