@@ -44,7 +44,7 @@ from simulate.marching.trend import further
 from simulate.scene import GROWING, LEADING, OF_LAST_ROUNDS, Scene
 from simulate.scene.laws.table import Tabulated
 from simulate.scene.own_laws import of_result
-from simulate.signals import Lines, filled, lines
+from simulate.signals import filled, lines
 from simulate.sweeps.result_types import Course
 
 type Entry = tuple[str | tuple[str, ...], Any, dict[str, Any]]
@@ -603,19 +603,18 @@ def of_spectrum(run: Run) -> dict[str, Any]:
     rounds, zeta = record.rounds_of_spectrum, run.scene.damping_ratio
     samples, orders = rounds * record.samples_per_round, np.arange(1, record.highest_order + 1)
     values, largest = np.full(samples // 2 + 1, np.nan, np.float32), np.nan
-    unknown = np.full(len(JUDGED), np.nan)
-    found = Lines(np.full((len(JUDGED), len(orders)), np.nan), unknown, unknown, False)
+    found = dict.fromkeys(("beside", "beside_order"), np.full(len(JUDGED), np.nan)) | {
+        "along": np.full((len(JUDGED), len(orders)), np.nan),
+        "free": 0,
+    }
     if outcome.status in WITH_RESULT:
         values, largest = last_spectrum(run), outcome.u_r[-samples:, 0].max()
         found = lines(outcome.judged, rounds, zeta, run.scene.casing.drives(orders))
-    return {
+    return found | {
         "spectrum": values,
         "largest": largest,
         "engine_order": np.arange(len(values)) / rounds,
-        "along": found.along.astype(np.float32),
-        "beside": found.beside,
-        "beside_order": found.order,
-        "free": int(found.free),
+        "along": found["along"].astype(np.float32),
         "judged": [*JUDGED],
         "order": orders,
     }
