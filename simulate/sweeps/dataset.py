@@ -22,6 +22,7 @@ from geometry.base import (
     check_settings,
     code_hash,
     known,
+    require,
     require_format,
     version,
 )
@@ -323,18 +324,26 @@ def require_numbers(
     for name, dimensions in dims.items():
         if name not in table.variables:  # xarray makes up an index that is missing
             raise KeyError(f"no variable {name}")
-        if table[name].dims != dimensions:
-            raise ValueError(f"{name}: dimensions {table[name].dims}, not {dimensions}")
-        if name != "status" and table[name].dtype.kind not in "fi":
-            raise ValueError(f"{name}: no numbers")
+        given = table[name]
+        require(
+            (given.dims == dimensions, f"{name}: dimensions {given.dims}, not {dimensions}"),
+            (name == "status" or given.dtype.kind in "fi", f"{name}: no numbers"),
+            kind=ValueError,
+        )
     if "status" in dims:
         status = table["status"]
-        if not status.isin([*statuses]).all():
-            raise ValueError("status: none that a run can have")
         where = {status.dims[0]: np.flatnonzero(status.isin([*with_result]))} if finite else {}
-        for name in finite & dims.keys() - {"status"}:
-            if not np.isfinite(table[name].isel(where, missing_dims="ignore")).all():
-                raise ValueError(f"{name}: not finite in a run that has a result")
+        require(
+            (status.isin([*statuses]).all(), "status: none that a run can have"),
+            *(
+                (
+                    np.isfinite(table[name].isel(where, missing_dims="ignore")).all(),
+                    f"{name}: not finite in a run that has a result",
+                )
+                for name in finite & dims.keys() - {"status"}
+            ),
+            kind=ValueError,
+        )
 
 
 def origin(dataset: xr.Dataset) -> Provenance:
