@@ -1,6 +1,6 @@
 """Signals of a run: spectra, amplitudes along engine orders, worn lobes; whole records."""
 
-from typing import NamedTuple
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -35,16 +35,9 @@ def spectrum(u_r: NDArray[np.float64]) -> NDArray[np.float64]:
     return amplitude
 
 
-class Lines(NamedTuple):
-    """Lines of the spectra at some places; amplitudes in the unit of the signals."""
-
-    along: NDArray[np.float64]  # (places, orders), along engine orders 1, 2, ... where they last
-    beside: NDArray[np.float64]  # (places,), largest on no integer order that lasts; 0: none
-    order: NDArray[np.float64]  # (places,), f / Omega of these; nan without one
-    free: bool  # whether the largest at the first place is a free vibration of the start
-
-
-def lines(u_r: NDArray[np.float64], rounds: int, zeta: float, driven: NDArray[np.bool_]) -> Lines:
+def lines(
+    u_r: NDArray[np.float64], rounds: int, zeta: float, driven: NDArray[np.bool_]
+) -> dict[str, Any]:
     """Lines of the signals ``u_r`` (samples, places) of a whole number of revolutions.
 
     A free vibration decays by exp(-2 pi zeta x n) from the first half of the revolutions to the
@@ -58,6 +51,13 @@ def lines(u_r: NDArray[np.float64], rounds: int, zeta: float, driven: NDArray[np
     ----------
     zeta : damping ratio of the modes
     driven : (orders,), whether the casing drives the engine orders 1, 2, ...
+
+    Returns
+    -------
+    By the names of a sweep's variables, amplitudes in the unit of the signals: ``along`` (places,
+    orders), along engine orders 1, 2, ... where they last; ``beside`` (places,), largest on no
+    integer order that lasts, 0: none; ``beside_order`` (places,), f / Omega of these, nan without
+    one; ``free``, 1 where the largest at the first place is a free vibration of the start, else 0.
     """
     orders, half = np.arange(1, len(driven) + 1), rounds // 2
     part, resolved = half * (len(u_r) // rounds), half >= RESOLVED
@@ -83,9 +83,13 @@ def lines(u_r: NDArray[np.float64], rounds: int, zeta: float, driven: NDArray[np
         off = top & (np.abs(from_order) >= RESOLVED) & lasting[:, near]
         kept[:, bins] = whole[:, bins] * (off & (whole[:, bins] > on_order.max(axis=1)[:, None]))
     beside = kept.max(axis=1)
-    order = np.where(beside > 0, kept.argmax(axis=1) / rounds, np.nan)
     largest = max(along[0].max(), beside[0])
-    return Lines(along, beside, order, bool(resolved and largest < whole[0, 1:].max()))
+    return {
+        "along": along,
+        "beside": beside,
+        "beside_order": np.where(beside > 0, kept.argmax(axis=1) / rounds, np.nan),
+        "free": int(resolved and largest < whole[0, 1:].max()),
+    }
 
 
 def _around(

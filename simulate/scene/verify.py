@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field
 
-from geometry.base import Caution, Settings, SettingsError, merged
+from geometry.base import Caution, Fault, Settings, SettingsError, merged, require
 
 EVERY, PEAKS = "every", "peaks"
 OLD = ("check", "twin", "halving")  # keys of 0.3.0
@@ -62,13 +62,18 @@ def in_place_of_old(values: dict[str, Any]) -> dict[str, Any]:
     if not given:
         return values
     verify = values.get("verify", {})  # of a base, where this file has the old keys
-    if not isinstance(verify, dict):
-        raise SettingsError(f"verify: {verify} is given, too: take this out", key=next(iter(given)))
-    if given.get("halving", False) not in (True, False):
-        raise SettingsError("should be true or false", key="halving", value=given["halving"])
+    halving = given.get("halving", False)
+    require(
+        (
+            isinstance(verify, dict),
+            Fault(f"verify: {verify} is given, too: take this out", next(iter(given))),
+        ),
+        (halving in (True, False), Fault("should be true or false", "halving", halving)),
+        kind=SettingsError,
+    )
     now = {"check": "share", "twin": "predictable"}
     form = {now[key]: value for key, value in given.items() if key in now}
-    form = EVERY if given.get("halving") else form
+    form = EVERY if halving else form
     line = f"{', '.join(given)}: write `verify: {shown(form)}` instead"
     warnings.warn(line, FormerKeyWarning, stacklevel=2)
     others = {key: value for key, value in values.items() if key not in OLD}

@@ -13,7 +13,7 @@ from math import ceil
 
 import numpy as np
 
-from geometry.base import WARNING, duration
+from geometry.base import WARNING, duration, failed
 from geometry.tip import JUDGED
 from rom.model import Rom
 from simulate.contact.places import mean_footprint
@@ -35,12 +35,10 @@ FEW_RODS = 4096  # as few as serve for a limit
 class Cost:
     """Cost of a sweep, or of a part of it."""
 
+    scene: Scene
     speeds: int
-    rounds: int
-    until: bool  # at most so many
     steps: float  # per revolution, mean over the speeds
-    second_runs: list[Neighbour]  # each run
-    more: int  # speeds at most that are added, where it is known
+    second_runs: list[Neighbour]  # of each run
     all_steps: float  # of all runs
     seconds: float  # on one core
     memory: float  # bytes, of all that is held at its end
@@ -52,27 +50,29 @@ class Cost:
         """
         names = " and ".join(run.name for run in self.second_runs)
         second_runs = f", each with {names}" if names else ""
-        rounds = f"{'at most ' * self.until}{self.rounds} revolutions"
-        more = f" and at most {self.more} more" * bool(self.more)
-        said = [
+        rounds = f"{'at most ' if self.scene.until else ''}{self.scene.rounds} revolutions"
+        peaks = self.scene.peaks  # with orders it is not known how many speeds they add
+        more = f" and at most {peaks.most} more" if peaks and not peaks.orders else ""
+        said = (
             f"{self.speeds} speeds{more} of {rounds} of {self.steps:.6g} steps{second_runs}: "
             f"{self.all_steps:.2g} steps, some {duration(self.seconds)} on one core, "
             f"{self.memory / 1e9:.2g} GB of memory"
-        ]
-        if self.seconds > LONG:
-            said.append(
+        )
+        memory = memory or os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+        much = failed(
+            (
+                self.seconds <= LONG,
                 f"{WARNING}that is some {duration(self.seconds)}: lower the number of speeds "
-                "(`peaks` adds those that matter), rounds, or integrator.steps_per_round"
-            )
-        if self.memory > MUCH * (
-            memory or os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
-        ):
-            said.append(
+                "(`peaks` adds those that matter), rounds, or integrator.steps_per_round",
+            ),
+            (
+                self.memory <= MUCH * memory,
                 f"{WARNING}that is more than {MUCH:.0%} of this machine's memory: lower the number "
                 "of speeds, liner.rods_per_round, record.samples_per_round or the "
-                "recorded revolutions"
-            )
-        return said
+                "recorded revolutions",
+            ),
+        )
+        return [said, *much]
 
 
 def cost(scene: Scene, rom: Rom, speeds: int | None = None) -> Cost:
@@ -91,12 +91,10 @@ def cost(scene: Scene, rom: Rom, speeds: int | None = None) -> Cost:
     runs = speeds * (1 + sum(run.cost for run in second_runs))
     all_steps = runs * scene.rounds * steps
     return Cost(
+        scene=scene,
         speeds=speeds,
-        rounds=scene.rounds,
-        until=scene.until is not None,
         steps=steps,
         second_runs=second_runs,
-        more=scene.peaks.most if scene.peaks and not scene.peaks.orders else 0,
         all_steps=all_steps,
         seconds=all_steps * _of_step(scene.liner, rom, steps) + RUN * runs,
         memory=_memory(speeds, scene.record, scene.liner, scene.rounds, rom.n),

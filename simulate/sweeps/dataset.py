@@ -22,6 +22,7 @@ from geometry.base import (
     check_settings,
     code_hash,
     known,
+    require,
     require_format,
     version,
 )
@@ -45,7 +46,7 @@ from simulate.marching.trend import further
 from simulate.scene import GROWING, LEADING, OF_LAST_ROUNDS, Scene
 from simulate.scene.laws.table import Tabulated
 from simulate.scene.own_laws import of_result
-from simulate.signals import Lines, filled, lines
+from simulate.signals import filled, lines
 from simulate.sweeps.result_types import Course
 
 type Entry = tuple[str | tuple[str, ...], Any, dict[str, Any]]
@@ -324,18 +325,26 @@ def require_numbers(
     for name, dimensions in dims.items():
         if name not in table.variables:  # xarray makes up an index that is missing
             raise KeyError(f"no variable {name}")
-        if table[name].dims != dimensions:
-            raise ValueError(f"{name}: dimensions {table[name].dims}, not {dimensions}")
-        if name != "status" and table[name].dtype.kind not in "fi":
-            raise ValueError(f"{name}: no numbers")
+        given = table[name]
+        require(
+            (given.dims == dimensions, f"{name}: dimensions {given.dims}, not {dimensions}"),
+            (name == "status" or given.dtype.kind in "fi", f"{name}: no numbers"),
+            kind=ValueError,
+        )
     if "status" in dims:
         status = table["status"]
-        if not status.isin([*statuses]).all():
-            raise ValueError("status: none that a run can have")
         where = {status.dims[0]: np.flatnonzero(status.isin([*with_result]))} if finite else {}
-        for name in finite & dims.keys() - {"status"}:
-            if not np.isfinite(table[name].isel(where, missing_dims="ignore")).all():
-                raise ValueError(f"{name}: not finite in a run that has a result")
+        require(
+            (status.isin([*statuses]).all(), "status: none that a run can have"),
+            *(
+                (
+                    np.isfinite(table[name].isel(where, missing_dims="ignore")).all(),
+                    f"{name}: not finite in a run that has a result",
+                )
+                for name in finite & dims.keys() - {"status"}
+            ),
+            kind=ValueError,
+        )
 
 
 def origin(dataset: xr.Dataset) -> Provenance:
@@ -604,19 +613,18 @@ def of_spectrum(run: Run) -> dict[str, Any]:
     rounds, zeta = record.rounds_of_spectrum, run.scene.damping_ratio
     samples, orders = rounds * record.samples_per_round, np.arange(1, record.highest_order + 1)
     values, largest = np.full(samples // 2 + 1, np.nan, np.float32), np.nan
-    unknown = np.full(len(JUDGED), np.nan)
-    found = Lines(np.full((len(JUDGED), len(orders)), np.nan), unknown, unknown, False)
+    found = dict.fromkeys(("beside", "beside_order"), np.full(len(JUDGED), np.nan)) | {
+        "along": np.full((len(JUDGED), len(orders)), np.nan),
+        "free": 0,
+    }
     if outcome.status in WITH_RESULT:
         values, largest = last_spectrum(run), outcome.u_r[-samples:, 0].max()
         found = lines(outcome.judged, rounds, zeta, run.scene.casing.drives(orders))
-    return {
+    return found | {
         "spectrum": values,
         "largest": largest,
         "engine_order": np.arange(len(values)) / rounds,
-        "along": found.along.astype(np.float32),
-        "beside": found.beside,
-        "beside_order": found.order,
-        "free": int(found.free),
+        "along": found["along"].astype(np.float32),
         "judged": [*JUDGED],
         "order": orders,
     }

@@ -36,10 +36,10 @@ def made(signals, speeds, harmonics=TWO, **changes):
     bins = [GAP * spectrum(signal[:, 0]) for signal in each]
     runs = {
         "spectrum": (("speed_over_f1", "engine_order"), bins),
-        "along": (("speed_over_f1", "judged", "order"), [of.along for of in found]),
-        "beside": (("speed_over_f1", "judged"), [of.beside for of in found]),
-        "beside_order": (("speed_over_f1", "judged"), [of.order for of in found]),
-        "free": ("speed_over_f1", [of.free for of in found]),
+        "along": (("speed_over_f1", "judged", "order"), [of["along"] for of in found]),
+        "beside": (("speed_over_f1", "judged"), [of["beside"] for of in found]),
+        "beside_order": (("speed_over_f1", "judged"), [of["beside_order"] for of in found]),
+        "free": ("speed_over_f1", [of["free"] for of in found]),
     }
     attrs = {"scene": case.model_dump_json(), "gap_m": GAP}
     return xr.Dataset(runs, {"speed_over_f1": speeds}, attrs)
@@ -168,7 +168,7 @@ def test_a_line_lasts_that_falls_by_less_than_half_of_what_damping_takes(rounds)
         for share in (last - 0.1, last + 0.1):
             free = np.exp(-ZETA * k * turns)
             signal = (1 - share + share * free) * np.cos(k * turns)
-            found = lines(signal[:, None], rounds, ZETA, driven).along[0, k - 1]
+            found = lines(signal[:, None], rounds, ZETA, driven)["along"][0, k - 1]
             assert bool(found > 0) is (share < last)
 
 

@@ -78,7 +78,7 @@ def test_a_sweep_without_orders_adds_speeds_around_every_peak_and_tells_how_many
         near = np.diff(speeds[max(peak.index - 1, 0) : peak.index + 2])
         assert near.max() <= WITHIN * (1 + 1e-9)
     assert any("11 speeds and at most 40 more of 8 revolutions" in line for line in said)
-    assert cost(scene(**RUB), coarse_rom).more == 0
+    assert not any("more" in line for line in cost(scene(**RUB), coarse_rom).lines())
 
 
 def test_two_runs_halfway_to_the_neighbours_measure_the_amplitude_between_speeds(coarse_rom):

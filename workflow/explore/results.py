@@ -34,22 +34,35 @@ def arrays(response: Response) -> dict[str, NDArray[np.float64]]:
     """
     sweep, gap = response.sweep, leading_gap(response.sweep)
     theta = np.arange(ANGLES) * 2 * np.pi / ANGLES
-    by_name = {"inward": response.scene.casing.inward(theta, gap) / gap}
-    if "wear" in sweep:
-        by_name["worn"] = around(response.wear, ANGLES)
-        by_name["liner"] = around(sweep["wear"].values / gap, COARSE)
-    if "spectrum" in sweep:
-        by_name["along"] = log10(np.stack([along_order(sweep, k) for k in response.orders], axis=1))
-        bins = int(HIGHEST / response.speeds.min() * response.scene.record.spectrum_rounds) + 2
-        by_name["spectrum"] = log10(response.spectrum[:, :bins])
-    if "envelope" in sweep:
-        by_name["history"] = sweep["envelope"].values / gap
-    if "motion" in sweep:
-        rows = closing_rows(response.rom, response.scene.casing, np.array(EDGES))
-        moves = sweep["place"].values == EDGES[1] if "place" in sweep else False
-        of_both = sweep["motion"].values @ rows.T / gap
-        by_name["signal"] = np.where(np.reshape(moves, (-1, 1)), of_both[..., 1], of_both[..., 0])
-    return by_name
+    outputs = {  # the variable of the sweep that each is made of, and how
+        "worn": ("wear", lambda: around(response.wear, ANGLES)),
+        "liner": ("wear", lambda: around(sweep["wear"].values / gap, COARSE)),
+        "along": (
+            "spectrum",
+            lambda: log10(np.stack([along_order(sweep, k) for k in response.orders], axis=1)),
+        ),
+        "spectrum": ("spectrum", lambda: log10(_spectrum(response))),
+        "history": ("envelope", lambda: sweep["envelope"].values / gap),
+        "signal": ("motion", lambda: _signal(response) / gap),
+    }
+    return {"inward": response.scene.casing.inward(theta, gap) / gap} | {
+        name: make() for name, (needed, make) in outputs.items() if needed in sweep
+    }
+
+
+def _spectrum(response: Response) -> NDArray[np.float64]:
+    """Spectra (speeds, bins) up to ``HIGHEST`` at the slowest speed."""
+    bins = int(HIGHEST / response.speeds.min() * response.scene.record.spectrum_rounds) + 2
+    return response.spectrum[:, :bins]
+
+
+def _signal(response: Response) -> NDArray[np.float64]:
+    """u_r (speeds, times), m, at the place of the motion in the last revolution."""
+    sweep = response.sweep
+    rows = closing_rows(response.rom, response.scene.casing, np.array(EDGES))
+    moves = sweep["place"].values == EDGES[1] if "place" in sweep else False
+    of_both = sweep["motion"].values @ rows.T
+    return np.where(np.reshape(moves, (-1, 1)), of_both[..., 1], of_both[..., 0])
 
 
 def log10(amplitude: NDArray[np.float64]) -> NDArray[np.float64]:

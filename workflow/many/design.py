@@ -22,7 +22,16 @@ from typing import Any, Self
 
 import numpy as np
 
-from geometry.base import Fault, SettingsError, check_settings, csv_rows, number, parse, refuse
+from geometry.base import (
+    Fault,
+    SettingsError,
+    check_settings,
+    csv_rows,
+    failed,
+    number,
+    parse,
+    refuse,
+)
 from simulate.scene import Scene, own_laws
 from workflow.many.columns import COLUMN, keys, placed, value_at
 from workflow.many.row import Row
@@ -129,22 +138,29 @@ class Design:
         return (line.tolist() for line in of_base * drawn)
 
     def _row(self, row: int, values: dict[str, Any], line: list[Any]) -> Row:
-        """Row of the cells of a ``line``; ``values`` are those of the base."""
-        about = {"number": row, "label": self.name, "names": (str(row),), "function": NUMBERS}
+        """Row of the cells of a ``line``; ``values`` are those of the base.
+
+        Without a scene it has the numbers that are given, but no texts.
+        """
+        about = {
+            "number": row,
+            "label": self.name,
+            "names": (str(row),),
+            "directions": self.base.directions,
+            "function": NUMBERS,
+        }
         try:
-            scene = _scene(values, self.columns, line)
+            scene, refused, cells = _scene(values, self.columns, line), (), ()
         except SettingsError as error:
-            cells = dict(zip(self.columns, line, strict=False))
-            of_base = {name: value_at(self.base, name) for name in self.columns}
-            said = of_base | {name: _read(cell) for name, cell in cells.items() if cell != ""}
-            given = {name: value if _is_number(value) else None for name, value in said.items()}
-            return Row(scene=None, refused=map(str, error.faults), given=given, **about)
-        found = {name: value_at(scene, name) for name in self.columns}
+            scene, refused = None, map(str, error.faults)
+            cells = zip(self.columns, line, strict=False)
+        found = {name: value_at(scene or self.base, name) for name in self.columns}
+        found |= {name: _read(cell) for name, cell in cells if cell != ""}
         given = {
-            name: value if value is None or _is_number(value) else str(value)
+            name: value if value is None or _is_number(value) else scene and str(value)
             for name, value in found.items()
         }
-        return Row(scene=scene, given=given, directions=self.base.directions, **about)
+        return Row(scene=scene, refused=refused, given=given, **about)
 
     def require_row(self, row: int) -> Scene:
         """The scene of a row, from 1.
@@ -184,14 +200,15 @@ def _refused(name: str, columns: Sequence[str], base: Scene) -> list[str]:
     path = keys(name)
     if not COLUMN.fullmatch(name) or path[0] == BLADE != name:
         return ["is no key of a scene"]
-    faults = [REFUSED[path[0]]] if path[0] in REFUSED else []
-    if name == BLADE and base.accuracy:
-        faults.append(f"accuracy: {REFUSED['accuracy']}, of one blade")
     within = (
         other for other in columns if other != name and path[: len(keys(other))] == keys(other)
     )
-    faults += [f"is a part of column {other!r}" for other in within if other]
-    return faults + ["is there twice"] * (columns.count(name) > 1)
+    return failed(
+        (path[0] not in REFUSED, REFUSED.get(path[0], "")),
+        (name != BLADE or not base.accuracy, f"accuracy: {REFUSED['accuracy']}, of one blade"),
+        *((False, f"is a part of column {other!r}") for other in within if other),
+        (columns.count(name) == 1, "is there twice"),
+    )
 
 
 def _key_faults(base: Scene, columns: Sequence[str], lines: Iterable[Sequence[str]]) -> list[Fault]:

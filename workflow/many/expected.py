@@ -26,11 +26,12 @@ def expected(design: Design, rom: Rom, choice: Choice | None = None) -> str:
             costs += [cost(scene, rom)] if scene else []
     if not costs:
         return f"{design.count} rows; of {len(chosen)} that were looked at all are refused"
-    names = ("speeds", "all_steps", "seconds")
-    each = {name: mean(getattr(of, name) for of in costs) for name in names}
-    total = {name: design.count * value for name, value in each.items()}
+    speeds, steps, seconds = (
+        design.count * mean(getattr(of, name) for of in costs)
+        for name in ("speeds", "all_steps", "seconds")
+    )
     return (
-        f"{design.count} rows, some {total['speeds']:.6g} runs without those added around peaks: "
-        f"{total['all_steps']:.2g} steps, some {duration(total['seconds'])} on one core (from "
+        f"{design.count} rows, some {speeds:.6g} runs without those added around peaks: "
+        f"{steps:.2g} steps, some {duration(seconds)} on one core (from "
         f"{len(costs)} rows)"
     )

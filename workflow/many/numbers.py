@@ -23,15 +23,15 @@ def peaks(runs: xr.Dataset, rom: Rom) -> dict[str, Any]:
     Of each its speed, Omega over f1(0), the amplitude of u_r at xi = 1/16, and the deepest wear of
     the leading eighth of the chord, over the gap there, as far as they are recorded.
     """
+    outputs = {  # the variable of the sweep that each needs, and how it follows, of an order
+        "speed": ("speed_over_f1", lambda _: runs["speed_over_f1"].values),
+        "amplitude": ("spectrum", lambda k: along_order(runs, k)),
+        "wear": ("wear", lambda _: leading_wear(runs).max(axis=1) / leading_gap(runs)),
+    }
 
     def over_speeds(k: float | None = None) -> dict[str, Any]:
         """Arrays (speeds,) by name; the amplitude is along ``k``, or the largest of all orders."""
-        along = {"speed": runs["speed_over_f1"].values}
-        if "spectrum" in runs:
-            along["amplitude"] = along_order(runs, k)
-        if "wear" in runs:
-            along["wear"] = leading_wear(runs).max(axis=1) / leading_gap(runs)
-        return along
+        return {name: make(k) for name, (needed, make) in outputs.items() if needed in runs}
 
     def values_at(index: int, k: float | None = None) -> dict[str, float]:
         """The same at one speed."""

@@ -10,14 +10,13 @@ E (eps - alpha) = sigma_Y(alpha). Two pieces are the law `plastic`. Reference: S
 chapter 1.
 """
 
-from typing import Annotated, Literal, NamedTuple
+from typing import Annotated, Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import Field
 
 from geometry.base import Fault, SettingsError, checked, require, shifted
-from simulate.scene.law import Unloading
+from simulate.scene.law import Unloading, numbers_of
 from simulate.scene.tables import Points, from_csv
 
 # Columns of the file: the key that each stands for, and its factor to its unit
@@ -27,15 +26,6 @@ STRESS = {
     for unit, mpa in (("Pa", 1e-6), ("kPa", 1e-3), ("MPa", 1.0))
 }
 ROUND_OFF = 1e-9  # relative, of a slope that is the modulus
-
-
-class Parameters(NamedTuple):
-    """Young's modulus (Pa), and the yield curve at its points, from plastic strain 0."""
-
-    E: float
-    alpha: NDArray[np.float64]  # (points,), plastic strains, ascending from 0
-    sigma: NDArray[np.float64]  # (points,), Pa, yield stress there
-    H: NDArray[np.float64]  # (points,), Pa, slope to the next point; the last one goes on
 
 
 class Curve(Points):
@@ -121,15 +111,21 @@ class Tabulated(Unloading):
         )
 
     @property
-    def parameters(self) -> Parameters:
-        """E, Pa, and the yield curve."""
+    def parameters(self) -> Any:
+        """Young's modulus E, Pa, and the yield curve at its points, from plastic strain 0.
+
+        alpha (points,), plastic strains, ascending from 0; sigma (points,), Pa, yield stress there;
+        H (points,), Pa, slope to the next point; the last one goes on.
+        """
         strain, stress_Pa = np.array(self.curve.strain), np.array(self.curve.stress_Pa)
         slopes = np.diff(stress_Pa) / np.diff(strain)
         first = int(np.argmax(slopes < self.modulus * (1 - ROUND_OFF)))  # where it yields
         strain, sigma, slopes = strain[first:], stress_Pa[first:], slopes[first:]
         H = slopes / (1 - slopes / self.modulus)  # d sigma / d alpha, where it is E H / (E + H)
         alpha = np.concatenate([[0.0], np.cumsum(np.diff(strain) * (1 - slopes / self.modulus))])
-        return Parameters(self.modulus, alpha, sigma, np.append(H, H[-1]))
+        return numbers_of("E", "alpha", "sigma", "H")(
+            self.modulus, alpha, sigma, np.append(H, H[-1])
+        )
 
     @property
     def farthest(self) -> float:
