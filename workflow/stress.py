@@ -168,11 +168,6 @@ class Stressed:
         return self.solid.V.tabulate_dof_coordinates()
 
     @cached_property
-    def order(self) -> NDArray[np.int64]:
-        """Of the free DoFs in those of the basis."""
-        return dofs_at(self.basis.coordinates, self.solid.free_coordinates()).ravel()
-
-    @cached_property
     def near_clamp(self) -> NDArray[np.int64]:
         """Nodes between half the distance from the clamp and those whose stress is read."""
         inside, distance = self.airfoil
@@ -251,7 +246,8 @@ class Stressed:
         five = found.a @ found.stress.sigma @ FIVE.T
         one, other = found.a[largest_change(five.T[None])[:, 0], 1:]
         shapes = self.shapes.shapes @ np.stack([one + other, one - other], axis=1) / 2
-        u, along = self.basis.static(found.Omega)[self.order], (self.basis.T @ shapes)[self.order].T
+        order = dofs_at(self.basis.coordinates, self.solid.free_coordinates()).ravel()
+        u, along = self.basis.static(found.Omega)[order], (self.basis.T @ shapes)[order].T
         off = disagreement(self.solid, u, along, self.blade.prestress, found.node)
         own = found.stress.numbers(found.a)
         mean = np.copysign(abs(own["mean_stress"]) + off[0] + off[1], own["mean_stress"])
