@@ -76,11 +76,17 @@ def compliances(rows: Rows) -> str:
         (row["blade"], row["numbers"]["patches"]): np.array(row["numbers"]["compliance_m_per_N"])
         for row in rows
     }
-    lines = []
-    for one, other, judged in MESHES:
-        for patches, bar in COMPLIANCE_BARS.items():
-            change = float(np.abs(found[one, patches] / found[other, patches] - 1).max())
-            lines.append([one, other, patches, _share(change, bar if judged else None)])
+    lines = [
+        [
+            *(one, other, patches),
+            _share(
+                float(np.abs(found[one, patches] / found[other, patches] - 1).max()),
+                bar if judged else None,
+            ),
+        ]
+        for one, other, judged in MESHES
+        for patches, bar in COMPLIANCE_BARS.items()
+    ]
     return markdown.table(["from", "to", "patches", "largest change"], lines)
 
 

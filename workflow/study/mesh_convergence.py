@@ -127,8 +127,7 @@ def draw(study: Whole) -> Figure:
     ``study``: rows of the experiment.
     """
     study = numbers(study)
-    drawn = style.figure(style.SINGLE, 3.1)
-    axes = drawn.subplots()
+    drawn, axes = style.subplots(style.SINGLE, 3.1)
     sizes = np.array(study["element_size_mm"])
     frequencies = 100 * np.abs(study["at_rest_Hz"]["error"])
     tip = 100 * np.abs(study["tip_deflection_m"]["error"])[:, 0]

@@ -137,12 +137,13 @@ def _law(dice: Dice) -> dict[str, Any]:
 
 def _speed(dice: Dice) -> float:
     """Speed over f1(0); refused above Omega_m, about 0.4."""
-    slow, any_speed, too_fast = (
-        dice.decades(1e-3, 0.4),
-        dice.uniform(0.05, 0.4),
-        dice.uniform(0.41, 3),
+    return dice.among(
+        {
+            dice.decades(1e-3, 0.4): 0.5,
+            dice.uniform(0.05, 0.4): 0.47,
+            dice.uniform(0.41, 3): 0.03,  # too fast
+        }
     )
-    return dice.among({slow: 0.5, any_speed: 0.47, too_fast: 0.03})
 
 
 def _gap_and_casing(dice: Dice, strips: int) -> dict[str, Any]:
