@@ -81,9 +81,11 @@ def _text(case: dict[str, Any], name: str, digits: int, order: int) -> str:
     is_worst_of_paper = order == ENGINE_ORDER and (case["E"], case["K"]) == tuple(WORST)
     marked = f"{peak[name]:.{digits}f}{RISE * peak['at_end']}{OF_PAPER * is_worst_of_paper}"
     # it cannot be predicted where run and twin differ, or end differently (inf: null)
-    sensitive = peak["status"] == "sensitive"
-    if peak["departure"] is not None:
-        sensitive = peak["departure"] > SENSITIVE_FROM
+    sensitive = (
+        peak["status"] == "sensitive"
+        if peak["departure"] is None
+        else peak["departure"] > SENSITIVE_FROM
+    )
     return f"({marked})" if sensitive else marked
 
 

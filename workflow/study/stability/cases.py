@@ -77,9 +77,8 @@ def draw(number: int, patches: int) -> Case:
     scheme = dice.among({EXPLICIT: 1, EXACT: 1})
     law = _law(dice)
     profile = law["kind"] == "plastic" and dice.chance(0.2)
-    strips = dice.among({1: 0.3, patches: 0.45, 2 * patches: 0.25})
-    if law["kind"] == "rigid":
-        strips = patches
+    drawn = dice.among({1: 0.3, patches: 0.45, 2 * patches: 0.25})
+    strips = patches if law["kind"] == "rigid" else drawn
     case = Case(
         scene={
             "speeds": {"over_f1": [_speed(dice)]},
@@ -186,10 +185,9 @@ def _worn_through(dice: Dice, scheme: str, law: Mapping[str, Any], profile: bool
 
 
 def _contact(dice: Dice) -> dict[str, Any]:
-    profile = {"edge_drop_um": shifted(dice.decades(1e-6, 1e-3), 6)}
-    if dice.chance(0.5):
-        profile["tilt"] = dice.uniform(-0.1, 0.1)
-    return {"profile": profile, "tangential": True}
+    drop = {"edge_drop_um": shifted(dice.decades(1e-6, 1e-3), 6)}
+    tilt = {"tilt": dice.uniform(-0.1, 0.1)} if dice.chance(0.5) else {}
+    return {"profile": drop | tilt, "tangential": True}
 
 
 def _step(dice: Dice, scheme: str) -> float:
