@@ -197,8 +197,13 @@ class Stressed:
 
     def found(self, Omega: float, node: int, number: int, revolutions: Revolutions) -> Found:
         """A node in a revolution."""
-        stress = NodeStress(self.at(Omega, node), self.blade.fatigue)
-        return Found(Omega, int(node), number, revolutions, stress)
+        return Found(
+            Omega=Omega,
+            node=int(node),
+            number=number,
+            revolutions=revolutions,
+            stress=NodeStress(self.at(Omega, node), self.blade.fatigue),
+        )
 
     def numbers(self, found: Found) -> dict[str, Any]:
         """The numbers of a node, and its place: in axes and unit of the blade's file, and in m."""
