@@ -100,7 +100,7 @@ def _blade(path: Path, file: str | None, folder: Path) -> str:
         raise SettingsError(
             f"unknown kind of file: allowed {', '.join(filter(None, SOURCES))}", file=file
         )
-    seen = _looked_at(source, path.stem) if suffix in SHOWN and source else {}
+    values = NOT_READ | (_looked_at(source, path.stem) if suffix in SHOWN and source else {})
     if source and source.resolve().parent != path.parent.resolve():
         shutil.copy(source, path.parent)
     return _filled(
@@ -130,11 +130,14 @@ def _looked_at(source: Path, name: str) -> dict[str, str]:
     picture = Path("results", name, "look.png")
     draw(found, picture)
     values = {key: _inline(found.source[key]) for key in ("frame", "root", "tip")}
-    if found.patches != PATCHES:
-        values["patches"] = f"interface: {{patches: {found.patches}}} # the tip's mesh allows\n"
-    if found.material:
-        values |= {"material": _inline(found.material), "whence": "as in the file"}
-    return values | {
+    patches = f"interface: {{patches: {found.patches}}} # the tip's mesh allows\n"
+    material = (
+        {"material": _inline(found.material), "whence": "as in the file"} if found.material else {}
+    )
+    return {
+        **values,
+        **material,
+        "patches": patches if found.patches != PATCHES else "",
         "unit": found.source["unit"],
         "size": f"{found.size:.2g}",
         "mark": "",

@@ -74,11 +74,14 @@ def printed(summary: Mapping[str, Any]) -> str:
 
 def inputs(counts: Mapping[str, Any]) -> str:
     """Inputs of the tester by kind, and how many were refused or read as they say."""
-    rows = []
-    for kind, by_result in counts["kinds"].items():
-        good = [by_result.get(name, 0) for name in ("refused", "right")]
-        total = sum(by_result.values())
-        rows.append([kind, total, *good, total - sum(good)])
+    counted = [
+        (kind, sum(by_result.values()), by_result.get("refused", 0), by_result.get("right", 0))
+        for kind, by_result in counts["kinds"].items()
+    ]
+    rows = [
+        [kind, total, refused, right, total - refused - right]
+        for kind, total, refused, right in counted
+    ]
     totals = ["all", *(sum(column) for column in zip(*(row[1:] for row in rows), strict=True))]
     return table(
         ["what is written", "inputs", "refused in a line", "read as it says", "anything else"],

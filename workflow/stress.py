@@ -168,11 +168,6 @@ class Stressed:
         return self.solid.V.tabulate_dof_coordinates()
 
     @cached_property
-    def order(self) -> NDArray[np.int64]:
-        """Of the free DoFs in those of the basis."""
-        return dofs_at(self.basis.coordinates, self.solid.free_coordinates()).ravel()
-
-    @cached_property
     def near_clamp(self) -> NDArray[np.int64]:
         """Nodes between half the distance from the clamp and those whose stress is read."""
         inside, distance = self.airfoil
@@ -202,8 +197,13 @@ class Stressed:
 
     def found(self, Omega: float, node: int, number: int, revolutions: Revolutions) -> Found:
         """A node in a revolution."""
-        stress = NodeStress(self.at(Omega, node), self.blade.fatigue)
-        return Found(Omega, int(node), number, revolutions, stress)
+        return Found(
+            Omega=Omega,
+            node=int(node),
+            number=number,
+            revolutions=revolutions,
+            stress=NodeStress(self.at(Omega, node), self.blade.fatigue),
+        )
 
     def numbers(self, found: Found) -> dict[str, Any]:
         """The numbers of a node, and its place: in axes and unit of the blade's file, and in m."""
@@ -251,7 +251,8 @@ class Stressed:
         five = found.a @ found.stress.sigma @ FIVE.T
         one, other = found.a[largest_change(five.T[None])[:, 0], 1:]
         shapes = self.shapes.shapes @ np.stack([one + other, one - other], axis=1) / 2
-        u, along = self.basis.static(found.Omega)[self.order], (self.basis.T @ shapes)[self.order].T
+        order = dofs_at(self.basis.coordinates, self.solid.free_coordinates()).ravel()
+        u, along = self.basis.static(found.Omega)[order], (self.basis.T @ shapes)[order].T
         off = disagreement(self.solid, u, along, self.blade.prestress, found.node)
         own = found.stress.numbers(found.a)
         mean = np.copysign(abs(own["mean_stress"]) + off[0] + off[1], own["mean_stress"])

@@ -4,7 +4,7 @@ Light: Snakemake imports the summary, which has these lines. ``stress``: as of
 ``workflow.stress.write``.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 from simulate.errors.schema import of_peaks
@@ -98,35 +98,33 @@ def _numbers(row: Mapping[str, Any], answer: Any) -> dict[str, str]:
     return {name: f"{shown}{units[name]} {share}" for name, (shown, share) in texts.items()}
 
 
-def _doubts(row: Mapping[str, Any], stress: Mapping[str, Any]) -> list[str]:
+def _doubts(row: Mapping[str, Any], stress: Mapping[str, Any]) -> Iterator[str]:
     """Cycles of the run beside those of the endurance; why the number may be another one."""
-    lines, alternating = [], row["alternating"]
     if "cycles" in row:
-        lines.append(
+        yield (
             f"The margin is to the endurance at 1e7 cycles: this run has {row['cycles']}, and 1e7 "
             f"take {row['endurance_s']:.3g} s at that speed."
         )
-    if row["between"] > EARLIER * alternating:
+    if row["between"] > EARLIER * row["alternating"]:
         shown_there = shown(row | {"alternating": row["between"]}, "alternating")
-        lines.append(
+        yield (
             f"Between any two instants of the revolutions kept the alternating stress there is "
             f"{shown_there} MPa."
         )
     if row["stands_out"] > STANDS_OUT:
-        lines.append(
+        yield (
             f"The node of the worst stress stands out of those around it by "
             f"{percent(row['stands_out'] - 1)}: that is the mesh's."
         )
     if nearer := row.get("nearer"):
         of = _numbers(nearer | {"trend": row["trend"]}, None)
         margin = f", margin {of['margin']}" if "margin" in of else ""
-        lines.append(
+        yield (
             f"Down to {500 * stress['away_m']:.3g} mm from the clamp: alternating "
             f"{of['alternating']}{margin}."
         )
     if stress["too_near"]:
-        lines.append(
+        yield (
             f"Warning: at a sharp clamp the stress has no limit, and depends on the mesh nearer "
             f"than {1e3 * stress['too_near']:.3g} mm, half the thickness: raise stress.away_mm."
         )
-    return lines

@@ -6,7 +6,7 @@ Every third is in slow tests, all are in nightly ones; least counts are in propo
 
 import re
 from contextlib import suppress
-from dataclasses import asdict, replace
+from dataclasses import replace
 from itertools import count, islice
 
 import numpy as np
@@ -18,7 +18,7 @@ from geometry.hats import middles
 from rom.reduce import reduce
 from simulate.errors.neighbours import EIGHTH, HALF, QUARTER, TWICE
 from workflow.study.stability.cases import EXACT, F1, FIRST_STRIP_DEG, SEED, Case, Dice, draw
-from workflow.study.stability.matrix import End, Verdict, counts, judge_case
+from workflow.study.stability.matrix import counts, judge_case
 from workflow.study.stability.sweeps import _whole, judged
 from workflow.study.stability.told import extremes, sweeps
 
@@ -75,7 +75,7 @@ CHEAP = 14  # a case of few steps whose sweep has one peak
 
 def rows_of(ends):
     """Rows of the study, as its table has them."""
-    return [{"numbers": asdict(end)} for end in ends]
+    return [{"numbers": end} for end in ends]
 
 
 def is_plain(number):
@@ -119,7 +119,7 @@ def long(rom, every):
 
 
 def verdicts(ends, kind):
-    return [end for end in ends if end.checked.kind == kind]
+    return [end for end in ends if end["checked"]["kind"] == kind]
 
 
 @pytest.mark.parametrize("drawn", ["ends", "changing", "long"])
@@ -127,12 +127,14 @@ def test_no_case_is_silently_wrong(drawn, every, request):
     """Plain ones, those with friction or a changing casing, and long steps; all outcomes occur."""
     ends = request.getfixturevalue(drawn)
     wrong = verdicts(ends, "wrong")
-    assert not wrong, [(end.checked, end.bound, end.error, end.spread) for end in wrong]
+    assert not wrong, [
+        [end[key] for key in ("checked", "bound", "error", "spread")] for end in wrong
+    ]
     assert len(verdicts(ends, "unjudged")) <= 3
     least = 10 // every
     assert min(len(verdicts(ends, kind)) for kind in ("right", "flagged", "refused")) >= least
-    assert sum(end.contact for end in verdicts(ends, "right")) >= least or drawn != "ends"
-    assert all("\n" not in end.message.strip() for end in verdicts(ends, "refused"))
+    assert sum(end["contact"] for end in verdicts(ends, "right")) >= least or drawn != "ends"
+    assert all("\n" not in end["message"].strip() for end in verdicts(ends, "refused"))
 
 
 def test_few_runs_are_wrong_or_stopped(ends, changing):
@@ -151,12 +153,14 @@ def test_few_runs_are_wrong_or_stopped(ends, changing):
 
 def test_checks_by_default_are_of_runs_in_contact_and_cost_no_more_than_all_second_runs(ends):
     """Twice to an eighth of the step and a twin; of right ones most often twice alone."""
-    found = [end for end in ends if end.cost]
-    let_through = [end for end in ends if end.contact and end.plain.kind in ("right", "wrong")]
-    assert let_through and all(end.cost for end in let_through)
-    by_quarter, most = TWICE + 1 + HALF.cost + QUARTER.cost, max(end.cost for end in found)
+    found = [end for end in ends if end["cost"]]
+    let_through = [
+        end for end in ends if end["contact"] and end["plain"]["kind"] in ("right", "wrong")
+    ]
+    assert let_through and all(end["cost"] for end in let_through)
+    by_quarter, most = TWICE + 1 + HALF.cost + QUARTER.cost, max(end["cost"] for end in found)
     assert by_quarter <= most + 1e-9 <= by_quarter + EIGHTH.cost + 1e-6
-    right = [end.cost for end in found if end.default.kind == "right"]
+    right = [end["cost"] for end in found if end["default"]["kind"] == "right"]
     assert np.median(right) <= TWICE
 
 
@@ -183,8 +187,18 @@ def test_the_same_number_is_the_same_case():
 
 def made(plain, default, checked, accurate, error=0.0, contact=True, cost=0.0):
     """An end, with a kind and why as one text each."""
-    of = (Verdict(*text.split(" ", 1)) for text in (plain, default, checked))
-    return End(*of, accurate=accurate, error={"wear": error}, contact=contact, cost=cost, steps=100)
+    verdicts = {"plain": plain, "default": default, "checked": checked}
+    return {
+        **{
+            of: dict(zip(("kind", "why"), text.split(" ", 1), strict=True))
+            for of, text in verdicts.items()
+        },
+        "steps": 100,
+        "cost": cost,
+        "contact": contact,
+        "error": {"wear": error},
+        "accurate": accurate,
+    }
 
 
 MADE = [
@@ -216,7 +230,6 @@ def test_counts_of_made_cases():
     assert plain["wrong_by"] == [0.12, 0.3] and default["wrong_by"] == [0.12]
     assert checked["kinds"] == {"right": 2, "flagged": 6, "unjudged": 1}
     assert checked["stopped"] == {"inaccurate": 1} and checked["wrong_by"] == []
-    assert asdict(MADE[0])["plain"] == {"kind": "right", "why": "ok"}  # as in the file
 
 
 def test_the_paragraphs_have_the_counts():

@@ -154,15 +154,14 @@ def hatch(drawn: Figure, panels: Sequence[Axes], response: Response, observable:
         (response.sensitive(observable), {"fill": False, "hatch": NOT_PREDICTABLE}, sensitive),
     )
     handles = [Patch(facecolor=style.NO_RUN, label="no run")]
-    for which, hatched, label in looks:
-        if which.any():
-            look = {"edgecolor": style.GREY, "linewidth": 0} | hatched
-            handles.append(Patch(label=label, **look))
-            low, high = (ends[which] for ends in style.spans(response.speeds))
-            separate = low[1:] != high[:-1]  # adjoining cells are in one band
-            bands = zip(low[np.r_[True, separate]], high[np.r_[separate, True]], strict=True)
-            for band, axes in product(bands, panels):
-                axes.axvspan(*band, **look)
+    for which, hatched, label in (look for look in looks if look[0].any()):
+        look = {"edgecolor": style.GREY, "linewidth": 0} | hatched
+        handles.append(Patch(label=label, **look))
+        low, high = (ends[which] for ends in style.spans(response.speeds))
+        separate = low[1:] != high[:-1]  # adjoining cells are in one band
+        bands = zip(low[np.r_[True, separate]], high[np.r_[separate, True]], strict=True)
+        for band, axes in product(bands, panels):
+            axes.axvspan(*band, **look)
     drawn.legend(handles=handles, loc="outside lower left", handlelength=2.6, handleheight=1.3)
 
 

@@ -45,9 +45,8 @@ def table(rows: xr.Dataset) -> pd.DataFrame:
         DEEPEST: MICRO * rows["largest_wear"],
         "runs": rows["runs"],
         "runs not ok": rows["not_ok"],
+        **({"why": rows["why"]} if (rows["why"] != "").any() else {}),
     }
-    if (rows["why"] != "").any():
-        row_columns["why"] = rows["why"]
     return xr.Dataset(row_columns | by_order).to_dataframe()
 
 

@@ -26,15 +26,17 @@ def draw(mesh: rendering.Mesh, full: FullModel) -> Figure:
     frequencies = full.omega[0, : len(shapes)] / (2 * np.pi)
     height = blade.points[:, 0]
     tip = height > height.max() - TIP * np.ptp(height)
-    rows = []
-    for m, (shape, frequency) in enumerate(zip(shapes, frequencies, strict=True)):
-        title = (
+    rows = [
+        (
             f"({ascii_lowercase[m]}) mode {m + 1}\n{frequency:.0f} Hz\n"
             f"$f/f_1(0)$ = {frequency / frequencies[0]:.2f}\n"
-            f"tip rotation {100 * rotation_share(blade.points[tip], shape[tip]):.0f} %"
+            f"tip rotation {100 * rotation_share(blade.points[tip], shape[tip]):.0f} %",
+            SHOWN * max(blade.bounds_size) * shape,
+            np.linalg.norm(shape, axis=1),
+            VIEW,
         )
-        moved = SHOWN * max(blade.bounds_size) * shape
-        rows.append((title, moved, np.linalg.norm(shape, axis=1), VIEW))
+        for m, (shape, frequency) in enumerate(zip(shapes, frequencies, strict=True))
+    ]
     return rendering.gallery(
         blade,
         rows,

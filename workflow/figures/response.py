@@ -93,9 +93,12 @@ class Response:
         As far as the spectrum holds them.
         """
         sought = self.sweep.attrs.get("orders", ORDERS)  # of one, files have a number
-        orders, end = {*map(int, np.atleast_1d(sought)), *self.scene.casing.excites}, np.inf
-        if "spectrum" in self.sweep:
-            end = self.sweep["spectrum"].shape[1] // self.scene.record.rounds_of_spectrum
+        orders = {*map(int, np.atleast_1d(sought)), *self.scene.casing.excites}
+        end = (
+            self.sweep["spectrum"].shape[1] // self.scene.record.rounds_of_spectrum
+            if "spectrum" in self.sweep
+            else np.inf
+        )
         return sorted(k for k in orders if k < end)
 
     def of_f1(self, k: int) -> Peak | None:

@@ -179,14 +179,11 @@ def _looks(response: Response, marks: Marks) -> dict[int, tuple[Any, str]]:
 def _others(axes: Axes, response: Response, curves: Mapping[int, Any]) -> None:
     """Draw the amplitude along the order of each further peak, about its critical speed."""
     label = "other peaks"
-    for peak in response.peaks:
-        if peak.k not in curves:
-            near = abs(response.speeds - peak.Omega_c) <= NEAR * peak.Omega_c
-            along = response.units["length"][0].scale * response.along(peak)
-            axes.plot(
-                response.speeds[near], along[near], color=style.GREY, linewidth=0.8, label=label
-            )
-            label = None
+    for peak in (peak for peak in response.peaks if peak.k not in curves):
+        near = abs(response.speeds - peak.Omega_c) <= NEAR * peak.Omega_c
+        along = response.units["length"][0].scale * response.along(peak)
+        axes.plot(response.speeds[near], along[near], color=style.GREY, linewidth=0.8, label=label)
+        label = None
 
 
 def _name(axes: Axes, response: Response, peak: Peak, across: float) -> None:

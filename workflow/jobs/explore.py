@@ -33,11 +33,11 @@ def write(
     """
     response = Response.read(sweep, rom)
     full_basis = Basis.load(basis, origin(response.sweep))
-    motion, blade_arrays = None, {}
-    if "motion" in response.sweep:
-        motion, blade_arrays = moving(
-            Blade.load(blade), mesh, full_basis, response.sweep, response.rom
-        )
+    motion, blade_arrays = (
+        moving(Blade.load(blade), mesh, full_basis, response.sweep, response.rom)
+        if "motion" in response.sweep
+        else (None, {})
+    )
     campbell = critical(response.rom, operating)
     stresses = read_json(stress) if stress else None
     shown = facts(response, Path(blade).stem, scene, campbell) | {

@@ -41,13 +41,13 @@ def design(
     report: Say,
 ) -> list[About]:
     """Compute one of the ``blocks`` of a design; ``file``: of its ``scene``."""
-    of = given(scene, rom, choice)
-    table = Design.of(of.scene, Path(file))
+    of, model, settings, _ = given(scene, rom, choice)
+    table = Design.of(of, Path(file))
     chosen = range(block, table.count, blocks)
     if block == 0:
-        report(expected(table, of.rom, of.choice))
+        report(expected(table, model, settings))
     rows = table.rows(chosen)
-    return march_block(rows, folder, len(chosen), tell, {of.scene.blade: of.rom}, of.choice)
+    return march_block(rows, folder, len(chosen), tell, {of.blade: model}, settings)
 
 
 def tables(
@@ -61,10 +61,8 @@ def tables(
     rows: str,
 ) -> None:
     """Write both tables of a design from its blocks."""
-    of = given(scene, rom, choice)
-    made = tables_of(
-        Design.of(of.scene, Path(file)), of.rom, [*map(read_json, blocks)], folder, of.choice
-    )
+    of, model, settings, _ = given(scene, rom, choice)
+    made = tables_of(Design.of(of, Path(file)), model, [*map(read_json, blocks)], folder, settings)
     for table, path in zip(made, (runs, rows), strict=True):
         save(table, path)
 
@@ -73,7 +71,7 @@ def row(
     name: str, scene: Settings, rom: str, choice: str, file: str, number: int, sweep: str, tell: Say
 ) -> None:
     """Run the row of a ``number`` as a sweep, with all that its scene of this ``name`` records."""
-    of = given(scene, rom, choice)
-    one = Design.of(of.scene, Path(file)).require_row(number)
-    runs = swept(one, of.rom, tell, of.choice)
+    of, model, settings, _ = given(scene, rom, choice)
+    one = Design.of(of, Path(file)).require_row(number)
+    runs = swept(one, model, tell, settings)
     dataset.save(runs.assign_attrs(name=f"{name}, row {number}"), sweep)

@@ -19,9 +19,9 @@ def pilot(
     scene: Mapping[str, Any], rom: str, check: str, mesh_error: str, report: Say
 ) -> dict[str, Any]:
     """Step, density and strips for a scene with an accuracy."""
-    of = given(scene, rom)
-    choice = accuracy.pilot(of.scene, of.rom, check, mesh_error)
-    tell_before(choice.scene(of.scene), of.rom, report)
+    of, model, *_ = given(scene, rom)
+    choice = accuracy.pilot(of, model, check, mesh_error)
+    tell_before(choice.scene(of), model, report)
     return choice.plain()
 
 
@@ -39,14 +39,14 @@ def block(
 
     ``choice``, ``start``: as of ``given``.
     """
-    of = given(scene, rom, choice, start)
-    speeds = of.scene.speeds.omega(of.rom.f1)[block::blocks]  # all blocks cost the same
-    marched = at_speeds(of.scene, of.rom, speeds, tell, of.choice, of.start)
+    of, model, settings, before = given(scene, rom, choice, start)
+    speeds = of.speeds.omega(model.f1)[block::blocks]  # all blocks cost the same
+    marched = at_speeds(of, model, speeds, tell, settings, before)
     step = max(GROUPS // blocks, 1)
     save(
         merge(
             [
-                as_sweep(marched[first::step], tell, of.choice)
+                as_sweep(marched[first::step], tell, settings)
                 for first in range(min(step, len(marched)))
             ]
         ),

@@ -21,6 +21,6 @@ def animate(
 
     ``subject``: what its title names; ``choice``, ``start``: as of ``given``.
     """
-    of = given(scene, rom, choice, start)
-    rub = by_rounds(of.scene, of.rom, speed, of.choice, of.start)
-    save(rub, f"{subject}: {liner_and_tip(of.scene)}", animation)
+    of, model, settings, before = given(scene, rom, choice, start)
+    rub = by_rounds(of, model, speed, settings, before)
+    save(rub, f"{subject}: {liner_and_tip(of)}", animation)

@@ -25,8 +25,8 @@ def of_blocks(
     ``sought``: the number of ``modes``, and the ``orders``, of which peaks are sought;
     ``choice``, ``start``: as of ``given``.
     """
-    of = given(scene, rom, choice, start)
+    of, model, settings, before = given(scene, rom, choice, start)
     runs = merge([*map(load, blocks)]).assign_attrs(sought)
-    require_rom(runs, of.rom)
-    swept = close_in(of.scene, of.rom, runs, tell, of.choice, of.start)
+    require_rom(runs, model)
+    swept = close_in(of, model, runs, tell, settings, before)
     save(swept.assign_attrs(name=name), sweep)

@@ -44,6 +44,8 @@ def slopes_over_closed_form() -> dict[str, float]:
     for law in (law for law in COMPARED if law.kind == "plastic"):
         strain, stress = (np.ptp(path, axis=1) for path in loop(law, STRAINS))
         slopes, name = stress / strain, f"E = {law.E:g}, K = {law.K:g}"
-        ratios[f"loading, {name}"] = float(slopes[LOADING_ON] / (law.E * law.K / (law.E + law.K)))
-        ratios[f"unloading, {name}"] = float(slopes[UNLOADING] / law.E)
+        ratios |= {
+            f"loading, {name}": float(slopes[LOADING_ON] / (law.E * law.K / (law.E + law.K))),
+            f"unloading, {name}": float(slopes[UNLOADING] / law.E),
+        }
     return ratios

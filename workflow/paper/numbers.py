@@ -44,16 +44,15 @@ def of_scenes(
     more: list[Numbers],
 ) -> Numbers:
     """Numbers that the claims compare: of sweeps of scenes, and of the table of E and K."""
-    numbers = {
+    parts = *numbers_of(grid, growth).values(), *more
+    return {
         "e1": measure.coating(e1, rom),
         "e10": measure.coating(e10, rom),
         "two_five": measure.two_five(two_five, rom),
         "tilted": measure.tip_force(tilted, rom),
         "tangential": measure.tip_force(tangential, rom),
+        **{name: numbers for part in parts for name, numbers in part.items()},
     }
-    for part in [*numbers_of(grid, growth).values(), *more]:
-        numbers |= part
-    return numbers
 
 
 def worst_runs(table: Whole, growth: Mapping[str, Sequence[Any]]) -> dict[str, Any]:

@@ -160,17 +160,19 @@ def _turned(row: Row) -> str:
 
 def _causes(judged: Sequence[Row]) -> list[str]:
     """Influence of each choice: a table for each set of claims decided by the same runs."""
-    groups = dict.fromkeys(tuple(row["causes"]) for row in judged if row["causes"])
+    decided = {
+        names: [row for row in judged if tuple(row["causes"]) == names]
+        for names in dict.fromkeys(tuple(row["causes"]) for row in judged if row["causes"])
+    }
     tables = [
-        _moved(names, [row for row in judged if tuple(row["causes"]) == names]) for names in groups
+        table(
+            ["choice", *(f"{row['id']} {', '.join(row['ours'])}" for row in rows)],
+            [[name, *(_cell(row["causes"][name]) for row in rows)] for name in names],
+        )
+        + "\n"
+        for names, rows in decided.items()
     ]
     return ["\n## Choices of ours, changed one at a time\n", *tables] if tables else []
-
-
-def _moved(names: Sequence[str], rows: Sequence[Row]) -> str:
-    head = ["choice", *(f"{row['id']} {', '.join(row['ours'])}" for row in rows)]
-    moved = [[name, *(_cell(row["causes"][name]) for row in rows)] for name in names]
-    return table(head, moved) + "\n"
 
 
 def _cell(there: Mapping[str, Any] | None) -> str:

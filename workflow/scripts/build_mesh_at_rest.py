@@ -2,9 +2,14 @@
 
 from adapter import job
 
-from workflow.jobs.mesh_at_rest import build
+from fem.at_rest import build_mesh_at_rest
+from geometry.blade import Blade
+from workflow.jobs.mesh import report_mesh
 
 job(
     snakemake,
-    lambda of, tell: build(of.params.blade, of.input.source, of.output.mesh, tell.report),
+    lambda of, tell: report_mesh(
+        build_mesh_at_rest(Blade.load(of.params.blade), of.output.mesh, of.input.source or None),
+        tell.report,
+    ),
 )

@@ -120,13 +120,13 @@ def stress(rows: Rows) -> str:
     """
     at_peak = {row["row"]: row["numbers"] for row in rows if row["scene"] == PEAK}
     default = at_peak.pop(DEFAULT)
-    changes = {
-        name: [abs(default[key] / found[key] - 1) for key in ("away_Pa", "largest_Pa")]
-        for name, found in at_peak.items()
-    }
     lines = [
-        [name, _share(inside, STRESS_BAR), markdown.percent(anywhere)]
-        for name, (inside, anywhere) in changes.items()
+        [
+            name,
+            _share(abs(default["away_Pa"] / found["away_Pa"] - 1), STRESS_BAR),
+            markdown.percent(abs(default["largest_Pa"] / found["largest_Pa"] - 1)),
+        ]
+        for name, found in at_peak.items()
     ]
     return markdown.table(["change", "away from clamp and contact", "anywhere"], lines)
 

@@ -110,11 +110,12 @@ def requirements(rows: Sequence[ComputedRow]) -> str:
 
 def fewer_rounds(rows: Sequence[ComputedRow]) -> str:
     """Error of the amplitude and CPU time of a run, by revolutions before those of the spectrum."""
-    lines = []
-    for name, runs in group_rows(rows, "rounds").set_index("scene").groupby("row", sort=False):
-        by_scene = runs.reindex(SCENES)
-        times = ", ".join(by_scene["cpu_s"].map(two_digits))
-        lines.append([name, *by_scene["amplitude"].map(percent), times])
+    runs = group_rows(rows, "rounds").set_index("scene").groupby("row", sort=False)
+    by_scene = {name: of.reindex(SCENES) for name, of in runs}
+    lines = [
+        [name, *of["amplitude"].map(percent), ", ".join(of["cpu_s"].map(two_digits))]
+        for name, of in by_scene.items()
+    ]
     return table(["revolutions before", *SCENES, "CPU s per run"], lines)
 
 

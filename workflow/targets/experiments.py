@@ -19,10 +19,6 @@ class Experiments:
         self.blades, self.most_blocks = blades, most_blocks
         self.cases = Once[list[Row]]((), self._cases)  # by the name of the experiment
 
-    def file(self, wildcards: Any) -> str:
-        """The experiment's own file."""
-        return f"workflow/experiments/{wildcards.experiment}.yaml"
-
     def rows(self, wildcards: Any) -> list[Row]:
         """Its rows on their scenes."""
         return self.cases[wildcards.experiment]
@@ -70,7 +66,7 @@ class Experiments:
 
     def picture(self, wildcards: Any) -> Told:
         """What is drawn of the table."""
-        path = self.file(wildcards)
+        path = f"workflow/experiments/{wildcards.experiment}.yaml"
         picture = Experiment.load(path).picture
         if picture is None:
             raise SettingsError(f"{path}: picture: missing: give lines or cells")

@@ -63,8 +63,9 @@ class Scenes(Once[Scene]):
             scene = self[wildcards.scene]
             if not needed(scene):
                 return []
-            names = {"blade": wildcards.blade, "scene": wildcards.scene}
-            return pattern.format(**names, directions=scene.directions)
+            return pattern.format(
+                blade=wildcards.blade, scene=wildcards.scene, directions=scene.directions
+            )
 
         return path
 

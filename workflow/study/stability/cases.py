@@ -77,9 +77,8 @@ def draw(number: int, patches: int) -> Case:
     scheme = dice.among({EXPLICIT: 1, EXACT: 1})
     law = _law(dice)
     profile = law["kind"] == "plastic" and dice.chance(0.2)
-    strips = dice.among({1: 0.3, patches: 0.45, 2 * patches: 0.25})
-    if law["kind"] == "rigid":
-        strips = patches
+    drawn = dice.among({1: 0.3, patches: 0.45, 2 * patches: 0.25})
+    strips = patches if law["kind"] == "rigid" else drawn
     case = Case(
         scene={
             "speeds": {"over_f1": [_speed(dice)]},
@@ -137,12 +136,13 @@ def _law(dice: Dice) -> dict[str, Any]:
 
 def _speed(dice: Dice) -> float:
     """Speed over f1(0); refused above Omega_m, about 0.4."""
-    slow, any_speed, too_fast = (
-        dice.decades(1e-3, 0.4),
-        dice.uniform(0.05, 0.4),
-        dice.uniform(0.41, 3),
+    return dice.among(
+        {
+            dice.decades(1e-3, 0.4): 0.5,
+            dice.uniform(0.05, 0.4): 0.47,
+            dice.uniform(0.41, 3): 0.03,  # too fast
+        }
     )
-    return dice.among({slow: 0.5, any_speed: 0.47, too_fast: 0.03})
 
 
 def _gap_and_casing(dice: Dice, strips: int) -> dict[str, Any]:
@@ -185,10 +185,9 @@ def _worn_through(dice: Dice, scheme: str, law: Mapping[str, Any], profile: bool
 
 
 def _contact(dice: Dice) -> dict[str, Any]:
-    profile = {"edge_drop_um": shifted(dice.decades(1e-6, 1e-3), 6)}
-    if dice.chance(0.5):
-        profile["tilt"] = dice.uniform(-0.1, 0.1)
-    return {"profile": profile, "tangential": True}
+    drop = {"edge_drop_um": shifted(dice.decades(1e-6, 1e-3), 6)}
+    tilt = {"tilt": dice.uniform(-0.1, 0.1)} if dice.chance(0.5) else {}
+    return {"profile": drop | tilt, "tangential": True}
 
 
 def _step(dice: Dice, scheme: str) -> float:

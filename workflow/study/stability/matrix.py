@@ -15,8 +15,8 @@ of the two does not count as an error of the run.
 
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import asdict, dataclass, field, replace
-from typing import Any, NamedTuple, Self
+from dataclasses import replace
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -48,6 +48,10 @@ FINER, FINEST = 8, 5000  # least and largest ratio of the case's step to that of
 LIMITS = 3e4  # time marched over the limit step
 STEPS = 4e5  # of a reference
 RODS = 1.5e8  # rods passed in all steps of a reference
+NO_REFERENCE = {"error": {}, "spread": {}, "accurate": None}
+
+type Verdict = dict[str, str]  # `kind`, and `why`: status, or the key that was refused
+type End = dict[str, Any]  # outcome of a case, as of ``judge_case``
 
 
 class Ready(NamedTuple):
@@ -135,59 +139,41 @@ def _by(scheme: str, of: Ready, times: int) -> Run:
     return case.neighbour(Neighbour("a reference", steps=times)).march()
 
 
-@dataclass(frozen=True)
-class Verdict:
-    """What is said of a run, and whether that is so."""
-
-    kind: str
-    why: str  # status, or the key that was refused
-
-
-@dataclass(frozen=True)
-class End:
-    """Outcome of a case."""
-
-    plain: Verdict
-    default: Verdict  # with a check where it touches, as of a sweep of one speed
-    checked: Verdict  # with all checks
-    message: str = ""  # of a refusal
-    steps: int = 0  # marched
-    cost: float = 0.0  # steps of the check by default, over those of the run
-    contact: bool = False
-    bound: dict[str, float] = field(default_factory=dict)  # of the relative error, by all checks
-    error: dict[str, float] = field(default_factory=dict)  # relative, against the reference
-    spread: dict[str, float] = field(default_factory=dict)  # of the reference
-    accurate: bool | None = None  # within a tenth of the reference; None without one
-
-    @classmethod
-    def of(cls, plain: Mapping[str, Any]) -> Self:
-        """From its plain values."""
-        return cls(**{**plain, **{name: Verdict(**plain[name]) for name in KINDS}})
-
-
 def judge_case(case: Case, rom: Rom) -> End:
-    """March a case and its checks."""
+    """March a case and its checks.
+
+    Returns
+    -------
+    dict
+        A verdict by each of ``KINDS``: of the `plain` run; by `default`, with a check where it
+        touches, as of a sweep of one speed; `checked`, with all checks. And the `message` of a
+        refusal; `steps` marched; `cost`, steps of the check by default over those of the run;
+        whether there was `contact`; `bound` of the relative error, by all checks; `error`,
+        relative, against the reference, whose own is `spread`; `accurate`: within a tenth of the
+        reference, None without one.
+    """
     try:
         of = ready(case, rom)
     except (SettingsError, SceneError) as error:
-        refused = _refused(error)
-        return End(refused, refused, refused, str(error))
+        not_marched = {"steps": 0, "cost": 0.0, "contact": False, "bound": {}} | NO_REFERENCE
+        return dict.fromkeys(KINDS, _refused(error)) | {"message": str(error)} | not_marched
     run = judged_run(of.case.march())
     outcome = run.outcome
     exact = references(of) if outcome.status in TO_THE_END else ()
     (by_default,), _ = checked([run], run.scene.checked_share)
     alone, with_all = _refusal(run, halves=False), _refusal(run, halves=True)
     best = judged_run(replace(run, scene=run.scene.but(verify="every")))
-    return End(
-        alone or _verdict(run, exact),
-        alone or _verdict(by_default, exact),
-        with_all or _verdict(best, exact),
-        steps=run.setup.steps * run.scene.rounds,
-        cost=0.0 if alone else by_default.steps / run.steps - 1,
-        contact=outcome.contact_share > 0,
-        bound=best.errors,
+    return {
+        "plain": alone or _verdict(run, exact),
+        "default": alone or _verdict(by_default, exact),
+        "checked": with_all or _verdict(best, exact),
+        "message": "",
+        "steps": run.setup.steps * run.scene.rounds,
+        "cost": 0.0 if alone else by_default.steps / run.steps - 1,
+        "contact": outcome.contact_share > 0,
+        "bound": best.errors,
         **_against(exact, run),
-    )
+    }
 
 
 def _refusal(run: Run, halves: bool) -> Verdict | None:
@@ -203,21 +189,21 @@ def _verdict(run: Run, exact: Sequence[Run]) -> Verdict:
     """Verdict on a judged run beside its references."""
     status = run.outcome.status
     if status not in ("ok", "no-contact"):
-        return Verdict("flagged", status)
+        return {"kind": "flagged", "why": status}
     accurate = _against(exact, run)["accurate"]
-    return Verdict({None: "unjudged", True: "right", False: "wrong"}[accurate], status)
+    return {"kind": {None: "unjudged", True: "right", False: "wrong"}[accurate], "why": status}
 
 
 def _refused(error: UserError) -> Verdict:
     """A refusal is right where it names the keys that it is about."""
     named = all(fault.key for fault in error.faults)
-    return Verdict("refused" if named else "wrong", error.key)
+    return {"kind": "refused" if named else "wrong", "why": error.key}
 
 
 def _against(exact: Sequence[Run], run: Run) -> dict[str, Any]:
     """Errors of a run, difference of its references, and whether it is accurate."""
     if not exact:
-        return {"error": {}, "spread": {}, "accurate": None}
+        return NO_REFERENCE
     own, one, other = map(observables, (run, *exact))
     error, spread = (
         relative_differences(own, _nearest(own, one, other)),
@@ -243,42 +229,45 @@ def _closest_between(
     return one + min(max(share, 0.0), 1.0) * (other - one)
 
 
-def judged(number: int, rom: Rom) -> dict[str, Any]:
+def judged(number: int, rom: Rom) -> End:
     """The end of case ``number``, from 1, of the study."""
-    return asdict(judge_case(draw(number - 1, len(rom.xi)), rom))
+    return judge_case(draw(number - 1, len(rom.xi)), rom)
 
 
 def counts(rows: Iterable[ComputedRow]) -> dict[str, Any]:
     """Counts of the cases, as plain runs, by default and with all checks; cost of the default."""
-    ends = [End.of(row["numbers"]) for row in rows]
+    ends = [row["numbers"] for row in rows]
     return {
         "cases": len(ends),
-        **{name: _counts([(getattr(end, name), end) for end in ends]) for name in KINDS},
-        "cost": sum(end.cost * end.steps for end in ends) / max(sum(end.steps for end in ends), 1),
-        "checks": sum(end.cost > 0 for end in ends),
+        **{name: _counts([(end[name], end) for end in ends]) for name in KINDS},
+        "cost": sum(end["cost"] * end["steps"] for end in ends)
+        / max(sum(end["steps"] for end in ends), 1),
+        "checks": sum(end["cost"] > 0 for end in ends),
     }
 
 
 def _counts(judged: list[tuple[Verdict, End]]) -> dict[str, Any]:
     """Counts by kind and why; right runs that were not let through, and errors of the wrong."""
-    accurate = [(verdict, max(end.error.values())) for verdict, end in judged if end.accurate]
+    accurate = [(verdict, max(end["error"].values())) for verdict, end in judged if end["accurate"]]
     # a sensitive run may be accurate for these exact gaps, but it is not predictable
     stopped = [
         (verdict, error)
         for verdict, error in accurate
-        if verdict.kind in ("flagged", "refused") and verdict.why != "sensitive"
+        if verdict["kind"] in ("flagged", "refused") and verdict["why"] != "sensitive"
     ]
     return {
-        "kinds": Counter(verdict.kind for verdict, _ in judged),
+        "kinds": Counter(verdict["kind"] for verdict, _ in judged),
         "why": {
-            kind: Counter(verdict.why for verdict, _ in judged if verdict.kind == kind)
+            kind: Counter(verdict["why"] for verdict, _ in judged if verdict["kind"] == kind)
             for kind in ("right", "flagged", "refused", "wrong", "unjudged")
         },
-        "right_in_contact": sum(v.kind == "right" and end.contact for v, end in judged),
+        "right_in_contact": sum(v["kind"] == "right" and end["contact"] for v, end in judged),
         "accurate": len(accurate),
-        "stopped": Counter(verdict.why for verdict, _ in stopped),
+        "stopped": Counter(verdict["why"] for verdict, _ in stopped),
         # a bound is larger than the error: those right by little are stopped
         "well_accurate": sum(error <= STATED / 2 for _, error in accurate),
         "well_stopped": sum(error <= STATED / 2 for _, error in stopped),
-        "wrong_by": sorted(max(end.error.values()) for v, end in judged if v.kind == "wrong"),
+        "wrong_by": sorted(
+            max(end["error"].values()) for verdict, end in judged if verdict["kind"] == "wrong"
+        ),
     }

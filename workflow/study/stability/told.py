@@ -61,10 +61,8 @@ def sweeps(rows: Sequence[ComputedRow]) -> str:
 
 def _outcomes(counts: Mapping[str, Any]) -> str:
     kinds = dict.fromkeys(("right", "flagged", "refused", "wrong", "unjudged"), 0) | counts["kinds"]
-    flags, strips = (
-        _listed(counts["why"]["flagged"]),
-        counts["why"]["refused"].get("liner.strips", 0),
-    )
+    flagged, strips = counts["why"]["flagged"], counts["why"]["refused"].get("liner.strips", 0)
+    flags = ", ".join(f"{count} {name}" for name, count in sorted(flagged.items()))
     stopped, accurate = sum(counts["stopped"].values()), counts["accurate"]
     well, well_stopped = counts["well_accurate"], counts["well_stopped"]
     silent = f"{kinds['wrong']} silently wrong"
@@ -79,10 +77,6 @@ def _outcomes(counts: Mapping[str, Any]) -> str:
         f"({stopped / max(accurate, 1):.1%}) were flagged or refused; of {well} right to half of "
         f"that {well_stopped} ({well_stopped / max(well, 1):.1%})."
     )
-
-
-def _listed(whys: Mapping[str, int]) -> str:
-    return ", ".join(f"{count} {name}" for name, count in sorted(whys.items()))
 
 
 def engaged(rows: Sequence[ComputedRow]) -> list[Mapping[str, float]]:
