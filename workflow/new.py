@@ -104,7 +104,7 @@ def _blade(path: Path, file: str | None, folder: Path) -> str:
     if source and source.resolve().parent != path.parent.resolve():
         shutil.copy(source, path.parent)
     return _filled(
-        f"blade-{SOURCES[suffix]}", name=path.stem, file=source and source.name, **NOT_READ | seen
+        f"blade-{SOURCES[suffix]}", name=path.stem, file=source and source.name, **values
     )
 
 
