@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 
 from geometry.base import SettingsError, UserError, check_settings
 from rom.model import Rom
+from simulate.contact.ramp import ramp_of
 from simulate.errors.checked import checked
 from simulate.errors.neighbour import Neighbour
 from simulate.errors.neighbours import judged as judged_run
@@ -116,7 +117,8 @@ def _cut(case: Case, of: Marched, seconds: float) -> Marched:
     if rounds == 0:
         rounds, steps = 1, min(max(int(seconds / of.setup.h / SAMPLES), 1) * SAMPLES, steps)
     scene = of.scene.but(rounds=rounds, **case.grows(rounds))
-    return replace(of, scene=scene, setup=replace(of.setup, steps=steps))
+    setup = replace(of.setup, steps=steps, ramp=ramp_of(scene.casing))
+    return replace(of, scene=scene, setup=setup)
 
 
 def references(of: Ready) -> tuple[Run, Run]:
