@@ -36,6 +36,7 @@ class Quantity:
     peak: str = ""  # MOTION, CONTACT or STRESS where it is a number of each peak
     at_peak: str = ""  # its name there, if it is another one
     exact: bool = False  # whether second runs leave it as it is: it has no ±
+    follows: bool = False  # whether it follows from another one, which has a part in verdicts
     # In the summary:
     head: str = ""  # of its column, with the unit; without it there is none
     shown: tuple[str, float] = "1", 1.0  # its unit in CSV files, and the scale of that from SI
@@ -196,6 +197,7 @@ QUANTITIES = (  # in the order of the columns
         meaning="mean worn depth over the area that the tip sweeps, per whole revolution",
         of=lambda run: worn_per_pass(run.outcome.each.worn, *run.strips),
         peak=CONTACT,
+        follows=True,
         head="worn µm per pass",
         shown=("um per pass", 1e6),
         loads=True,

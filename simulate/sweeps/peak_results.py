@@ -452,11 +452,10 @@ def _change(a: float | None, b: float | None) -> float:
 def largest(changes: Numbers) -> float:
     """Largest change of the numbers of the motion, 0 without any.
 
-    Those of stress follow them, some steeply.
+    Without those that follow from others, as those of stress do, some steeply.
     """
-    known = of_peaks()
-    of_motion = (size for name, size in changes.items() if known[name].peak != STRESS)
-    return max(of_motion, default=0.0)
+    follow = {name for name, of in of_peaks().items() if of.follows or of.peak == STRESS}
+    return max((size for name, size in changes.items() if name not in follow), default=0.0)
 
 
 def sides(at: Callable[[float], Numbers], results: Mapping[float, Numbers]) -> Sequence[Numbers]:

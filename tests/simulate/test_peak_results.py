@@ -94,6 +94,12 @@ HARD = {
     "speeds": {"over_f1": [0.35]},  # departs by 3 % at least, whatever the last digits of the model
     "verify__predictable": True,  # heard before the energy that these steps lose
 }
+
+
+def test_what_follows_from_other_numbers_has_no_part_in_verdicts():
+    assert largest({"amplitude": 0.1, "worn_per_pass": 0.2, "alternating": 0.3}) == 0.1
+
+
 SCENES = {  # scene, errors of the model, the word, and what the uncertainty of the amplitude is
     "far from the fold": (FAR, CALM, ONE_MOTION, "model", (0.0, np.inf)),
     # frequencies uncertain by a tenth: the resonance passes the speed, and its fold with it
