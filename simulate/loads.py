@@ -15,7 +15,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geometry.hats import middles
-from simulate.contact.places import volume_of
 from simulate.scene import Scene
 from simulate.signals import filled
 
@@ -66,6 +65,8 @@ def worn_volume(
     >>> round(float(worn_volume(wear, np.array([0.02, 0.01]), np.array([0.5, 0.5]))), 12)
     9.425e-06
     """
+    from simulate.contact.places import volume_of  # as above
+
     return volume_of(wear.mean(axis=-1, dtype=float), width, radius)
 
 

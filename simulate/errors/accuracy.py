@@ -52,9 +52,8 @@ NOT_KNOWN = (
 class Tuning:
     """Numbers of the choice: value, meaning, and in brackets the commit that set the value.
 
-    Those "tuned" come from runs of random scenes, others than those of the test
-    (``tests/simulate/test_accuracy.py``); the log says so in titles alone, and no table of these
-    runs is kept. Of those "chosen" the log names no study.
+    Those "tuned" come from runs of random scenes, others than those that test them; the log says so
+    in titles alone, and no table of these runs is kept. Of those "chosen" the log names no study.
     """
 
     # of the first try

@@ -274,14 +274,15 @@ class Scene(SettingsFile):
         )
 
     @checked
-    def _central_differences_press_on_rods_without_friction(self) -> None:
-        if self.integrator is None or self.integrator.scheme != "central-difference":
-            return
+    def _scheme_and_friction_press_on_rods_that_they_know(self) -> None:
+        liner, friction = self.liner, self.contact.friction is not None
+        exact = self.integrator is None or self.integrator.scheme != "central-difference"
+        stiff = liner.rigid_key or f"law.kind: {liner.law.called}"
         needs = "needs `integrator: {scheme: piecewise-exact, steps_per_round: ...}`: "
-        key, _, value = (self.liner.rigid_key or "").partition(": ")
+        key, _, value = stiff.partition(": ")
         require(
             (
-                not self.liner.rigid_key,
+                exact or not liner.rigid_key,
                 Fault(
                     f"{needs}central differences cannot find the reaction of a rigid casing",
                     f"liner.{key}",
@@ -289,9 +290,17 @@ class Scene(SettingsFile):
                 ),
             ),
             (
-                self.contact.friction is None,
+                exact or not friction,
                 Fault(
                     f"{needs}the stability limit of central differences is that without friction",
+                    "contact.friction",
+                ),
+            ),
+            (
+                not friction or (liner.law.touches and not liner.rigid_key),
+                Fault(
+                    f"does not go with liner.{stiff}: it needs rods that deform (against a rigid "
+                    "casing there may be several reactions, or none): take one of them out",
                     "contact.friction",
                 ),
             ),
@@ -299,19 +308,11 @@ class Scene(SettingsFile):
         )
 
     @checked
-    def _a_sliding_tip_presses_on_rods(self) -> None:
-        liner = self.liner
-        if self.contact.friction is not None and (liner.rigid_key or not liner.law.touches):
-            key = liner.rigid_key or f"law.kind: {liner.law.called}"
-            raise SettingsError(
-                f"does not go with liner.{key}: it needs rods that deform (against a rigid casing "
-                "there may be several reactions, or none): take one of them out",
-                key="contact.friction",
-            )
-
-    @checked
-    def _runs_are_compared_in_what_is_recorded(self) -> None:
+    def _what_is_asked_is_recorded(self) -> None:
         said = "applies to recorded outputs: set record.wear or another of record"
+        samples = self.record.samples_per_round
+        highest = max((self.peaks and self.peaks.orders) or [0])
+        allowed = self.record.highest_order
         require(
             *(
                 (self.record.observables or not asked, Fault(said, key))
@@ -320,15 +321,6 @@ class Scene(SettingsFile):
                     ("verify", self.twins or self.verify == PEAKS),
                 )
             ),
-            kind=SettingsError,
-        )
-
-    @checked
-    def _peaks_are_of_the_spectrum(self) -> None:
-        samples = self.record.samples_per_round
-        highest = max((self.peaks and self.peaks.orders) or [0])
-        allowed = self.record.highest_order
-        require(
             (
                 self.record.spectrum_rounds or not self.peaks,
                 Fault("are found in the spectrum: set record.spectrum_rounds", "peaks"),

@@ -31,7 +31,7 @@ RECORD = Record(
     contact_force=True,
 )
 MADE = SimpleNamespace(record=RECORD, no_torque="made")
-ROM = SimpleNamespace(n=76, xi=np.zeros(16))
+ROM = SimpleNamespace(n=76, xi=np.zeros(16), line=lambda xi: np.ones((len(xi), 3)))
 
 
 def single(u, wear, forces=1.0, status="ok", **places):
@@ -50,7 +50,7 @@ def single(u, wear, forces=1.0, status="ok", **places):
     of |= {"each": Rounds.unknown(ROUNDS, 0.0), "u_t": np.empty(0)}
     of |= dict.fromkeys(("force_peak", "force_mean", "force_tangential_mean"), force)
     one = dict.fromkeys(("width", "radius"), np.full(len(wear), len(wear) ** -0.5)) | places
-    setup = SimpleNamespace(places=SimpleNamespace(**one), steps=4096)
+    setup = SimpleNamespace(places=SimpleNamespace(**one), steps=4096, Omega=100.0)
     return Run(MADE, ROM, setup, outcome=Outcome(**of))
 
 
