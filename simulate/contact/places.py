@@ -6,13 +6,13 @@ fractions or as means over eighths of the chord: they do not depend on the numbe
 """
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from geometry.hats import middles
 from rom.model import Rom
-from simulate.contact.strips import rods_in_footprint
 from simulate.scene import Casing, Liner
 
 SHARES = 8  # equal parts of the chord, over which outputs are averaged
@@ -42,6 +42,11 @@ def volume_of(
 ) -> NDArray[np.float64]:
     """Volume (...,), m3, of depths (..., m) over strips of ``width``, at ``radius`` (m,); in m."""
     return 2 * np.pi * depth @ (width * radius)
+
+
+def rods_in_footprint(footprint: Any, radius: Any, nu: int) -> Any:
+    """Length of the footprint (m) at ``radius`` (m) in rods."""
+    return footprint * nu / (2 * np.pi * radius)
 
 
 def given_footprint(liner: Liner, rom: Rom) -> float | None:

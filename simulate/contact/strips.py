@@ -6,7 +6,7 @@ than the blade's way in a step, is lengthened to that, and A_i reduced: the forc
 """
 
 from math import floor
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -60,11 +60,6 @@ class Strips(NamedTuple):
     # number is known when the kernel is compiled, so that a lean that is not modelled costs nothing
     rows: tuple[float, ...]
     waves: Waves = STANDING  # travelling harmonics of the casing
-
-
-def rods_in_footprint(footprint: Any, radius: Any, nu: int) -> Any:
-    """Length of the footprint (m) at ``radius`` (m) in rods."""
-    return footprint * nu / (2 * np.pi * radius)
 
 
 def largest_over_window(d: NDArray[np.float64], m: int) -> NDArray[np.float64]:

@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import label, maximum
 
-from simulate.contact.strips import rods_in_footprint
+from simulate.contact.places import rods_in_footprint
 from simulate.contact.travelling import distortion_passed, farthest
 from simulate.errors.run import Run
 from simulate.marching import SceneError, Setup

@@ -11,8 +11,7 @@ from geometry.hats import middles
 from rom.model import DIRECTIONS, Rom
 from simulate.contact.gaps import given_gaps, growth_fault
 from simulate.contact.law_check import fault
-from simulate.contact.places import mean_footprint, strip_places
-from simulate.contact.strips import rods_in_footprint
+from simulate.contact.places import mean_footprint, rods_in_footprint, strip_places
 from simulate.marching.setup import SceneError, edge_slope, least_gap
 from simulate.scene import Casing, Contact, Gaps, Liner, Profile, Scene, Speeds
 from simulate.scene.laws import LAWS

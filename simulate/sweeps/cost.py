@@ -16,8 +16,7 @@ import numpy as np
 from geometry.base import WARNING, duration, failed
 from geometry.tip import JUDGED
 from rom.model import Rom
-from simulate.contact.places import mean_footprint
-from simulate.contact.strips import rods_in_footprint
+from simulate.contact.places import mean_footprint, rods_in_footprint
 from simulate.errors.neighbour import Neighbour
 from simulate.errors.neighbours import HALF, TWIN
 from simulate.marching import prepare

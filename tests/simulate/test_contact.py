@@ -12,6 +12,7 @@ from systems import (  # `strips` is a field that compiled functions read
 )
 
 from simulate.contact.compiled import for_types_of, records
+from simulate.contact.places import rods_in_footprint
 from simulate.contact.rod_law import rod_law
 from simulate.contact.rods import (
     ROD,
@@ -29,7 +30,6 @@ from simulate.contact.strips import (
     contact_free,
     covered_share,
     rod_under,
-    rods_in_footprint,
 )
 from simulate.marching.modal import Step
 from simulate.scene.laws.elastic import Elastic
