@@ -83,7 +83,8 @@ def code_of(script: str, *more: str) -> OfJob[list[str]]:
     The files are looked for when a job is needed.
     """
     modules = (f"workflow.scripts.{script}", *(name.partition(":")[0] for name in more))
-    return lambda wildcards: own_files(sources_of(*modules))
+    found = cache(lambda: own_files(sources_of(*modules)))  # once for all jobs of a rule
+    return lambda wildcards: found()
 
 
 def one_of(names: Iterable[str]) -> str:
