@@ -94,7 +94,7 @@ def test_the_page_leads_to_a_summary(followed):
 def test_the_check_says_its_cost_and_what_each_change_does(followed):
     folder, said = followed
     told = said["./run check rub"]
-    assert re.search(r"rub: \d+ speeds, 4 changes: some .* on one core", told)
+    assert re.search(r"rub: \d+ speeds, 8 changes: some .* on one core", told)
     table = (folder / "results/mine/rub/check.md").read_text()
     names = ("as it is", "half the step", "twice the strips", "twice the patches", "finer")
     assert all(name in table and name in told for name in names)

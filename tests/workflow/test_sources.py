@@ -205,10 +205,12 @@ def test_every_rule_depends_on_what_its_script_imports(jobs):
 
 
 # Prints, for each module, those of the project that Python has after its import in a new process.
+# A script takes `snakemake` from Snakemake and calls `adapter.job`, which does nothing here.
 IMPORTING = """
-import json, sys
+import builtins, json, sys
 from importlib import import_module
 from multiprocessing import get_context
+from types import SimpleNamespace
 import h5py, matplotlib, meshio, numba, pydantic, scipy.optimize, scipy.sparse.linalg, xarray
 
 def imported(module):
@@ -216,6 +218,8 @@ def imported(module):
     return [name for name in sys.modules if name.startswith(PACKAGES)]
 
 PACKAGES = tuple(sys.argv[1].split())
+builtins.snakemake = None
+sys.modules["adapter"] = SimpleNamespace(job=lambda *given, **texts: None)
 with get_context("fork").Pool(1, maxtasksperchild=1) as pool:
     print(json.dumps(dict(zip(sys.argv[2:], pool.map(imported, sys.argv[2:], chunksize=1)))))
 """
