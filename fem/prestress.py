@@ -10,7 +10,7 @@ from scipy.sparse import csr_matrix
 
 import ufl
 from dolfinx import fem
-from dolfinx.fem.petsc import LinearProblem, NonlinearProblem
+from dolfinx.fem.petsc import NonlinearProblem
 
 from fem.cholesky import Cholesky
 from fem.matrices import Prestressed
@@ -162,25 +162,20 @@ def linear_states(
 ) -> Iterator[Prestressed]:
     """States of prestress `linear`, Eq. (d): K is linear in Omega^2 by construction.
 
-    ``cholesky`` is not used: no equilibrium is iterated.
+    ``cholesky``, if given, holds the factor of each state's K. All K have one sparsity pattern.
     """
     v, du = ufl.TestFunction(solid.V), ufl.TrialFunction(solid.V)
-    x, u1 = ufl.SpatialCoordinate(solid.mesh), fem.Function(solid.V)
-    elastic = ufl.inner(solid.stress(small_strain(du)), small_strain(v)) * solid.dx
-    LinearProblem(
-        elastic,
-        solid.spin_load(x, v),
-        u=u1,
-        bcs=[solid.clamp],
-        petsc_options_prefix="static_",
-        petsc_options=DIRECT,
-    ).solve()
-    sigma = solid.stress(small_strain(u1))
+    x, cholesky = ufl.SpatialCoordinate(solid.mesh), cholesky or Cholesky()
+    K0 = solid.matrix(ufl.inner(solid.stress(small_strain(du)), small_strain(v)) * solid.dx)
+    load = fem.assemble_vector(fem.form(solid.spin_load(x, v))).array[solid.free]
+    u1 = cholesky.of(K0).solve(load[:, None])[:, 0]
+    sigma = solid.stress(small_strain(solid.field(u1)))
     geometric = ufl.inner(sigma, ufl.grad(du).T * ufl.grad(v)) * solid.dx
-    K0, K1 = solid.matrix(elastic), solid.matrix(geometric - solid.spin_load(du, v))
-    u1_free = u1.x.array[solid.free]
+    K1 = solid.matrix(geometric - solid.spin_load(du, v))
     for speed in speeds:
-        yield Prestressed(speed, K0 + speed**2 * K1, speed**2 * u1_free, 0.0)
+        data = K0.data + speed**2 * K1.data
+        K = csr_matrix((data, K0.indices, K0.indptr), K0.shape) if speed else K0
+        yield Prestressed(speed, K, speed**2 * u1, 0.0)
 
 
 def mass(solid: Solid) -> csr_matrix:

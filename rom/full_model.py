@@ -27,6 +27,7 @@ from geometry.tip import EDGES, on_line
 from rom.basis import project
 from rom.model import RomError
 from rom.modes import ShiftInvert
+from rom.natural import NaturalModes
 from rom.polynomial import evaluate, interpolate, node_polynomial, places_between
 
 MODES = 10  # frequencies compared
@@ -82,6 +83,7 @@ def solve(
     states: Iterable[Prestressed],
     cholesky: Cholesky | None = None,
     along: Along | None = None,
+    natural: NaturalModes | None = None,
 ) -> FullModel:
     """First modes, and compliance of the interface, at every state.
 
@@ -90,6 +92,7 @@ def solve(
     states : at ascending speeds; one at a time is kept
     cholesky : factorises K of the states, unless it holds the factor already
     along : of ``fem.second_order``; None: the second order is not known
+    natural : modes that are known at some of the speeds; they must leave no residual here either
 
     Raises
     ------
@@ -104,7 +107,8 @@ def solve(
     shapes: list[NDArray[np.float64]] = []  # at rest, once known
     for state in states:
         inverse = ShiftInvert(state.K, fom.M, cholesky)
-        modes = inverse.modes(MODES)
+        known = natural.at(state.speed, MODES) if natural else []
+        modes = inverse.checked(known) if known else inverse.modes(MODES)
         compliance = fom.S @ inverse.solve(loads)
         Phi, omega = modes.Phi[:, :BENT], modes.omega[:BENT]
         tip = edges @ Phi

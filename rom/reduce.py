@@ -5,6 +5,7 @@ from numpy.typing import NDArray
 from scipy.linalg import eigh
 from scipy.sparse import csr_matrix
 
+from fem.cholesky import Cholesky
 from fem.matrices import Matrices
 from geometry.base import Say, counted, silent
 from geometry.blade import EnrichedBasis, PaperBasis, settings_of_basis
@@ -13,6 +14,7 @@ from geometry.tip import EDGES
 from rom.basis import Components, enriched_basis, paper_basis, project
 from rom.model import CODE, DIRECTIONS, Rom, require_letters
 from rom.modes import ModesError, ShiftInvert
+from rom.natural import NaturalModes, natural_modes
 from rom.polynomial import basis_speeds, interpolate
 
 MOST_CONDITION = 1e8  # of C; above, the mesh does not resolve the patches
@@ -23,6 +25,7 @@ def reduce(
     basis: EnrichedBasis | PaperBasis,
     directions: str = "rtz",
     say: Say = silent,
+    natural: NaturalModes | None = None,
 ) -> tuple[Rom, NDArray[np.float64]]:
     """Reduced model and its basis T (n_full, n).
 
@@ -32,6 +35,7 @@ def reduce(
     directions : of the interface DoFs: "r" radial, "rt" also tangential, "rtz" also axial, which a
         tip that tapers has in any case
     say : called after each speed with the number left
+    natural : modes at the speeds of ``fom``, which an enriched basis computes else
 
     Raises
     ------
@@ -47,7 +51,7 @@ def reduce(
     further = isinstance(basis, EnrichedBasis) or len(fom.speeds) == len(wanted)
     if not (fom.given or (further and nearest <= 1e-12 * Omega_m)):
         raise ValueError(f"the basis needs the speeds {wanted}, not {fom.speeds}")
-    T = _basis(fom, basis, fom.rows(letters), say)
+    T = _basis(fom, basis, fom.rows(letters), say, natural)
     # Eq. (1) projected by Eq. (5)
     M, K = project(fom.M, T), np.stack([project(K, T) for K in fom.K])
     lowest = eigh(K[0], M, eigvals_only=True, subset_by_index=[0, 0])[0]
@@ -76,14 +80,21 @@ def reduce(
 
 
 def _basis(
-    fom: Matrices, basis: EnrichedBasis | PaperBasis, S: csr_matrix, say: Say
+    fom: Matrices,
+    basis: EnrichedBasis | PaperBasis,
+    S: csr_matrix,
+    say: Say,
+    natural: NaturalModes | None,
 ) -> NDArray[np.float64]:
     tolerance, stiffnesses = basis.rank_tolerance, counted(fom.K, len(fom.K), "speed", say)
     if isinstance(basis, PaperBasis):
         eta = basis.fixed_interface_modes
         return paper_basis([fixed_components(K, fom.M, S, eta) for K in stiffnesses], tolerance)
-    modes = basis.natural_modes
-    at_speeds = [natural_components(K, fom.M, S, modes) for K in stiffnesses]
+    natural, cholesky = natural or natural_modes(fom, basis.natural_modes), Cholesky()
+    at_speeds = [
+        Components(constraint_modes(ShiftInvert(K, fom.M, cholesky), S)[1], Phi)
+        for K, Phi in zip(stiffnesses, natural.Phi[..., : basis.natural_modes], strict=True)
+    ]
     return enriched_basis(at_speeds, S, fom.K[0], fom.M, tolerance)
 
 
@@ -114,26 +125,17 @@ def advance_of(fom: Matrices) -> NDArray[np.float64]:
     return interpolate((fom.S[2::3] @ fom.u_static.T).T, fom.speeds)
 
 
-def natural_components(K: csr_matrix, M: csr_matrix, S: csr_matrix, modes: int) -> Components:
-    """Constraint modes, and ``modes`` natural modes with free interface.
-
-    K, M: (n_full, n_full), N/m and kg; S: (n_c, n_full). Raises ``ModesError``.
-    """
-    inverse = ShiftInvert(K, M)
-    return Components(_constraint_modes(inverse, S)[1], inverse.modes(modes).Phi)
-
-
 def fixed_components(K: csr_matrix, M: csr_matrix, S: csr_matrix, eta: int) -> Components:
     """Constraint modes, and ``eta`` fixed-interface modes, those of (K^-1 - A C^-1 A^T) M.
 
     K, M: (n_full, n_full), N/m and kg; S: (n_c, n_full). Raises ``ModesError``.
     """
     inverse = ShiftInvert(K, M)
-    A, Phi_R = _constraint_modes(inverse, S)
+    A, Phi_R = constraint_modes(inverse, S)
     return Components(Phi_R, inverse.fixed_modes(A, Phi_R, S, eta).Phi)
 
 
-def _constraint_modes(inverse: ShiftInvert, S: csr_matrix) -> tuple[NDArray, NDArray]:
+def constraint_modes(inverse: ShiftInvert, S: csr_matrix) -> tuple[NDArray, NDArray]:
     """A = K^-1 S^T and Phi_R = A C^-1 (n_full, n_c).
 
     Raises

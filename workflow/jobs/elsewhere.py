@@ -7,6 +7,7 @@ from fem.matrices import Matrices
 from geometry.elsewhere import read_blade
 from rom.elsewhere import UNCHECKED, described, read_elsewhere
 from rom.full_model import solve as solve_at
+from rom.natural import NaturalModes
 
 
 def read(blade: str, matrices: str) -> None:
@@ -17,10 +18,10 @@ def read(blade: str, matrices: str) -> None:
     fom.save(matrices)
 
 
-def solve(matrices: str, full: str) -> None:
+def solve(matrices: str, modes: str, full: str) -> None:
     """Modes of the full model and its compliance, at the speeds of the matrices."""
     fom = Matrices.load(matrices)
-    solved = solve_at(fom, fom.states())
+    solved = solve_at(fom, fom.states(), natural=NaturalModes.load(modes))
     print(f"largest residual of a mode: {solved.residuals.max():.1e}")
     solved.save(full)
 

@@ -10,6 +10,7 @@ from fem.solid import read_solid
 from geometry.base import Say, counted, silent
 from geometry.blade import Blade
 from rom.full_model import FullModel, resolved, solve as solve_at
+from rom.natural import NaturalModes
 from rom.polynomial import basis_speeds
 
 
@@ -28,20 +29,29 @@ def assembled(blade: Blade, name: str, mesh: str | Path, say: Say = silent) -> M
     """
     speeds = basis_speeds(blade.basis, blade.top_speed).tolist()
     fom, states = over_speeds(blade, name, mesh, speeds)
-    return resolved(fom, counted(states, len(speeds), "speed", say), speeds, blade.basis, say)
+    states = counted(states, len(speeds), "speed", say)
+    if blade.prestress == "linear":  # K is linear in Omega^2: two speeds give it at all others
+        return Matrices.of(fom, states)
+    return resolved(fom, states, speeds, blade.basis, say)
 
 
-def solve(blade: str, mesh: str, speeds: list[float], full: str, tell: Say) -> None:
-    """Modes and compliance at the ``speeds`` of the check, rad/s."""
-    solved = solved_at(speeds, blade, mesh, tell)
+def solve(blade: str, mesh: str, modes: str, speeds: list[float], full: str, tell: Say) -> None:
+    """Modes and compliance at the ``speeds`` of the check, rad/s; some ``modes`` are known."""
+    solved = solved_at(speeds, blade, mesh, tell, NaturalModes.load(modes))
     print(f"largest residual of a mode: {solved.residuals.max():.1e}")
     solved.save(full)
 
 
-def solved_at(speeds: list[float], blade: str, mesh: str, say: Say = silent) -> FullModel:
-    """The full model of the blade in a file at ``speeds``, rad/s."""
+def solved_at(
+    speeds: list[float],
+    blade: str,
+    mesh: str,
+    say: Say = silent,
+    natural: NaturalModes | None = None,
+) -> FullModel:
+    """The full model of the blade in a file at ``speeds``, rad/s; ``natural``: modes of some."""
     settings, cholesky = Blade.load(blade), Cholesky()
     solid = read_solid(str(mesh), settings.material)
     fom, states = over_speeds(settings, Path(blade).stem, mesh, speeds, cholesky, solid)
     along = SecondOrder(solid, settings.prestress).along
-    return solve_at(fom, counted(states, len(speeds), "speed", say), cholesky, along)
+    return solve_at(fom, counted(states, len(speeds), "speed", say), cholesky, along, natural)

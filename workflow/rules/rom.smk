@@ -1,7 +1,28 @@
+rule modes:
+    input:
+        code=code_of("modes"),
+        matrices="results/{blade}/matrices.h5",
+    output:
+        modes="results/{blade}/modes.h5",
+    log:
+        "results/{blade}/logs/modes.log",
+    benchmark:
+        "results/{blade}/benchmarks/modes.tsv"
+    wildcard_constraints:
+        blade=one_of(blades.reduced),
+    params:
+        count=blades.modes_of_basis,
+    message:
+        "Modes of blade {wildcards.blade} at the speeds of the basis"
+    script:
+        "../scripts/modes.py"
+
+
 rule reduce:
     input:
         code=code_of("reduce"),
         matrices="results/{blade}/matrices.h5",
+        modes="results/{blade}/modes.h5",
     output:
         rom="results/{blade}/rom-{directions}.nc",
         basis="results/{blade}/basis-{directions}.h5",
@@ -24,6 +45,7 @@ rule solve_full_model:
     input:
         code=code_of("solve_full_model"),
         mesh="results/{blade}/blade.msh",
+        modes="results/{blade}/modes.h5",
     output:
         full="results/{blade}/full-model.nc",
     log:
@@ -47,6 +69,7 @@ rule solve_given_model:
     input:
         code=code_of("solve_given_model"),
         matrices="results/{blade}/matrices.h5",
+        modes="results/{blade}/modes.h5",
     output:
         full="results/{blade}/full-model.nc",
     log:

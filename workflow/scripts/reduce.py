@@ -9,6 +9,7 @@ job(
     lambda of, tell: make(
         of.params.blade,
         of.input.matrices,
+        of.input.modes,
         of.wildcards.directions,
         of.output.rom,
         of.output.basis,

@@ -6,5 +6,5 @@ from workflow.jobs.elsewhere import solve
 
 job(
     snakemake,
-    lambda of, tell: solve(of.input.matrices, of.output.full),
+    lambda of, tell: solve(of.input.matrices, of.input.modes, of.output.full),
 )

@@ -94,6 +94,10 @@ class Blades:
         """The settings that determine the basis: all but the tolerance of its check."""
         return Told(self.of(wildcards).basis.model_dump(mode="json", exclude={"tolerance_percent"}))
 
+    def modes_of_basis(self, wildcards: Any) -> int:
+        """Number of natural modes that the basis takes at each speed; that of the paper none."""
+        return getattr(self.of(wildcards).basis, "natural_modes", 0)
+
     def speeds_of_basis(self, wildcards: Any) -> tuple[list[float], float]:
         """Speeds, rad/s, at which the basis needs the full matrices, and what decides on more."""
         blade = self.of(wildcards)
