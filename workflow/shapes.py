@@ -61,8 +61,6 @@ def stresses(
     if prestress == "linear":  # stress in rotation is in Omega^2 alone, that of shapes constant
         static = basis.static(basis.Omega_m)[order]
         at_top = linearised(solid, static, along, prestress, strain=False)[0]
-            solid, basis.static(basis.Omega_m)[order], along, prestress, strain=False
-        )[0]
         rotates = (np.arange(len(at_top)) == 0)[:, None, None]
         return np.array([np.where(rotates, 0.0, at_top), np.where(rotates, at_top, 0.0)])
     speeds = np.sqrt((1 - np.cos(np.pi * np.arange(SPEEDS) / (SPEEDS - 1))) / 2)
