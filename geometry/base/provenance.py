@@ -4,7 +4,6 @@ The number of a format is increased when this version would misread earlier file
 version the files of this one.
 """
 
-import ast
 import hashlib
 import json
 import tomllib
@@ -13,11 +12,18 @@ from dataclasses import asdict, dataclass, replace
 from functools import cache
 from numbers import Integral
 from pathlib import Path
+from types import CodeType
 from typing import Any, Self
 
 from geometry.base.contents import DIGITS, file_hash
 from geometry.base.errors import UserError
 from geometry.base.sources import ROOT, sources_of
+
+# what Python compiles of a function or file, but for its path and the places of its lines
+OF_CODE = (
+    *("co_name", "co_flags", "co_argcount", "co_posonlyargcount", "co_kwonlyargcount"),
+    *("co_code", "co_consts", "co_names", "co_varnames", "co_freevars", "co_exceptiontable"),
+)
 
 
 class ProvenanceError(UserError):
@@ -157,25 +163,18 @@ def code_hash(*modules: str) -> str:
     return fingerprint([_bare(ROOT / file) for file in sources_of(*modules)])
 
 
-def _bare(path: Path) -> list[str]:
-    """Sorted imports of a file, and the rest of its syntax tree without docstrings."""
-    tree = ast.parse(path.read_text())
-    for node in ast.walk(tree):
-        body = getattr(node, "body", None)
-        if isinstance(body, list):
-            node.body = [part for part in body if not _is_text(part)]
-    imports = [part for part in tree.body if isinstance(part, ast.Import | ast.ImportFrom)]
-    tree.body = [part for part in tree.body if part not in imports]
-    return [*sorted(map(ast.dump, imports)), ast.dump(tree)]
+def _bare(path: Path) -> Any:
+    """What Python compiles of a file, which has no docstrings and comments."""
+    return _plain(compile(path.read_bytes(), path.name, "exec", dont_inherit=True, optimize=2))
 
 
-def _is_text(part: ast.AST) -> bool:
-    """Whether a statement is a docstring or another string expression."""
-    return (
-        isinstance(part, ast.Expr)
-        and isinstance(part.value, ast.Constant)
-        and isinstance(part.value.value, str)
-    )
+def _plain(value: Any) -> Any:
+    """A constant of compiled code, or such code without the places of its lines."""
+    if isinstance(value, CodeType):
+        return [_plain(getattr(value, name)) for name in OF_CODE]
+    if isinstance(value, tuple):
+        return [_plain(each) for each in value]
+    return sorted(map(repr, value)) if isinstance(value, frozenset) else repr(value)
 
 
 def anew(path: str | Path) -> str:
