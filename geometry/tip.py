@@ -128,6 +128,8 @@ class DevelopedTip:
         MeshError
             When the tip has no two edges.
         """
+        from scipy.interpolate import make_interp_spline  # a slow import, which few jobs need
+
         require(
             (
                 self.has_two_edges,
@@ -140,8 +142,6 @@ class DevelopedTip:
         theta = np.angle((x + 1j * y) * np.exp(-1j * self.theta)) + self.theta
         behind, ahead = self.at_z(z)
         eta = (theta - behind) / np.maximum(ahead - behind, LEAST_THICK / self.radius)
-        from scipy.interpolate import make_interp_spline  # a slow import, which few jobs need
-
         xi = make_interp_spline(self.camber_line()[:, 2], np.linspace(0, 1, PLACES), k=1)
         return xi(z), eta
 

@@ -13,20 +13,17 @@ STATUS = Path("/proc/self/status")  # of Linux; `VmHWM`: the largest memory of t
 USED = re.compile(r"^used (?P<seconds>[\d.]+) s of CPU, (?P<peak_MB>\d+) MB at most$", re.MULTILINE)
 
 
-def cpu_time() -> float:
-    """CPU time of this process and of those that it has waited for, s."""
-    return sum(os.times()[:4])
+def usage() -> str:
+    """The line of a log: CPU time and peak memory of this process and those that it waited for.
 
-
-def usage(begun: float) -> str:
-    """The line of a log: CPU time since ``begun``, of ``cpu_time``, and peak memory, also of them.
+    From its first import on.
 
     Until it has its program, a process that is started counts the memory of its parent.
     """
     peak = re.search(r"VmHWM:\s+(\d+)", STATUS.read_text() if STATUS.is_file() else "")
     kB = int(peak[1]) if peak else getrusage(RUSAGE_SELF).ru_maxrss
     peak_MB = max(kB, getrusage(RUSAGE_CHILDREN).ru_maxrss) * 1024 / 1e6
-    return f"used {cpu_time() - begun:.2f} s of CPU, {peak_MB:.0f} MB at most"
+    return f"used {sum(os.times()[:4]):.2f} s of CPU, {peak_MB:.0f} MB at most"
 
 
 def read_usage(log: str | Path) -> dict[str, float]:
