@@ -16,7 +16,8 @@ USED = re.compile(r"^used (?P<seconds>[\d.]+) s of CPU, (?P<peak_MB>\d+) MB at m
 def usage() -> str:
     """The line of a log: CPU time and peak memory of this process and those that it waited for.
 
-    The time is from its first import on. Until it has its program, a process that is started counts the memory of its parent.
+    The time is from its first import on. Until it has its program, a process that is started
+    counts the memory of its parent.
     """
     peak = re.search(r"VmHWM:\s+(\d+)", STATUS.read_text() if STATUS.is_file() else "")
     kB = int(peak[1]) if peak else getrusage(RUSAGE_SELF).ru_maxrss

@@ -32,7 +32,7 @@ def used_by(log, *arguments):
 
 
 def test_the_cpu_time_and_peak_memory_of_a_process_are_its_own(tmp_path):
-    """Imports cost time, a sleep none; 300 MB are touched; the 600 MB of its parent do not count."""
+    """Imports cost time, a sleep none; 300 MB are touched; the parent's 600 do not count."""
     used, passed = used_by(tmp_path / "log")
     assert 0.5 <= used["seconds"] <= passed - 1
     assert 300 < used["peak_MB"] < 450

@@ -11,7 +11,7 @@ rule modes:
     wildcard_constraints:
         blade=one_of(blades.reduced),
     params:
-        count=blades.modes_of_basis,
+        natural=blades.modes_of_basis,
     message:
         "Modes of blade {wildcards.blade} at the speeds of the basis"
     script:

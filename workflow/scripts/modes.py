@@ -6,5 +6,5 @@ from workflow.jobs.reduced import solve
 
 job(
     snakemake,
-    lambda of, tell: solve(of.input.matrices, of.params.count, of.output.modes, tell),
+    lambda of, tell: solve(of.input.matrices, of.params.natural, of.output.modes, tell),
 )
