@@ -61,8 +61,11 @@ class Constants(InterfaceOperator):
 
     def rows(self, directions: Collection[str]) -> csr_matrix:
         """Rows of S (directions n, n_full) of each patch or point in ``directions``, of "rtz"."""
-        kept = np.tile([letter in directions for letter in "rtz"], self.S.shape[0] // 3)
-        return self.S[kept]
+        return self.S[self.kept(directions)]
+
+    def kept(self, directions: Collection[str]) -> NDArray[np.bool_]:
+        """Whether each row of S is of one of the ``directions``."""
+        return np.tile([letter in directions for letter in "rtz"], self.S.shape[0] // 3)
 
     @property
     def slope(self) -> NDArray[np.float64]:

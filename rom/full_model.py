@@ -25,9 +25,9 @@ from geometry.hats import hat_nodes, mean, middles, over_edges
 from geometry.stored import Stored, frozen, stored
 from geometry.tip import EDGES, on_line
 from rom.basis import project
+from rom.components import AtSpeed
 from rom.model import RomError
 from rom.modes import ShiftInvert
-from rom.natural import NaturalModes
 from rom.polynomial import evaluate, interpolate, node_polynomial, places_between
 
 MODES = 10  # frequencies compared
@@ -83,7 +83,6 @@ def solve(
     states: Iterable[Prestressed],
     cholesky: Cholesky | None = None,
     along: Along | None = None,
-    natural: NaturalModes | None = None,
 ) -> FullModel:
     """First modes, and compliance of the interface, at every state.
 
@@ -92,35 +91,38 @@ def solve(
     states : at ascending speeds; one at a time is kept
     cholesky : factorises K of the states, unless it holds the factor already
     along : of ``fem.second_order``; None: the second order is not known
-    natural : modes that are known at some of the speeds; they must leave no residual here either
 
     Raises
     ------
     rom.modes.ModesError
         When K is not positive definite, or modes do not converge.
     """
-    cholesky, loads = cholesky or Cholesky(), fom.S.T.toarray()
+    cholesky = cholesky or Cholesky()
+    return of_components(fom, (AtSpeed.of(fom, of, MODES, cholesky) for of in states), along)
+
+
+def of_components(
+    fom: Constants, at_speeds: Iterable[AtSpeed], along: Along | None = None
+) -> FullModel:
+    """The full model, of its component modes at ascending speeds; ``along``: as of ``solve``."""
     P = over_edges(EDGES, fom.xi, mean(fom.across))
     edges = np.stack([P @ fom.rows(letter) for letter in "rtz"])
     radius = on_line(fom.camber, np.array(EDGES))[:, :1]
     rows: list[tuple] = []
     shapes: list[NDArray[np.float64]] = []  # at rest, once known
-    for state in states:
-        inverse = ShiftInvert(state.K, fom.M, cholesky)
-        known = natural.at(state.speed, MODES) if natural else []
-        modes = inverse.checked(known) if known else inverse.modes(MODES)
-        compliance = fom.S @ inverse.solve(loads)
+    for at in at_speeds:
+        modes, compliance = at.modes, fom.S @ at.A
         Phi, omega = modes.Phi[:, :BENT], modes.omega[:BENT]
         tip = edges @ Phi
         second = np.full(tip.shape[1:], np.nan)
         if along:
-            loaded = inverse.solve(edges[0].T)
+            loaded = at.A[:, fom.kept("r")] @ P.T
             for edge, mode in np.ndindex(*second.shape):
                 # the mode itself leaves the static field: its amplitude is given
                 x = loaded[:, edge] - Phi[:, mode] * tip[0, edge, mode] / omega[mode] ** 2
-                second[edge, mode] = along(state.u_static, x, Phi[:, mode])
+                second[edge, mode] = along(at.u_static, x, Phi[:, mode])
         second += tip[1] ** 2 / 2 / radius
-        rows.append((state.speed, modes.omega, modes.residuals, compliance, tip, second))
+        rows.append((at.speed, modes.omega, modes.residuals, compliance, tip, second))
         shapes = shapes or [modes.Phi]
     speeds, omega, residuals, compliances, tip, second = map(np.array, zip(*rows, strict=True))
     return FullModel(

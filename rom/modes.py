@@ -1,6 +1,6 @@
 """Eigenmodes and static solutions of sparse symmetric matrices, by SLEPc and MUMPS."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from fem.petsc import PETSc, SLEPc
@@ -77,7 +77,7 @@ class ShiftInvert:
             raise ModesError(f"SLEPc found {converged} of {count} modes; ask for fewer modes")
         x = PETSc.Vec().createSeq(self.K.shape[0], comm=PETSc.COMM_SELF)
         pairs = [(eps.getEigenpair(i, x).real, x.array.copy()) for i in range(count)]
-        return self.checked(pairs)
+        return self._checked(pairs)
 
     def solve(self, B: NDArray[np.float64]) -> NDArray[np.float64]:
         """K^-1 B for a dense block B (n, columns), with the same factor."""
@@ -110,7 +110,7 @@ class ShiftInvert:
         )
         Phi = Phi - Phi_R @ (S @ Phi)
         pairs = list(zip(values, Phi.T, strict=True))
-        return self.checked(pairs, lambda r: r - S.T @ (Phi_R.T @ r))
+        return self._checked(pairs, lambda r: r - S.T @ (Phi_R.T @ r))
 
     def _factor(self) -> Cholesky:
         """Factorise K.
@@ -128,18 +128,11 @@ class ShiftInvert:
             )
         return factor
 
-    def checked(
+    def _checked(
         self,
-        pairs: Iterable[tuple[float, NDArray]],
+        pairs: list[tuple[float, NDArray]],
         without_reactions: Callable[[NDArray], NDArray] = lambda r: r,
     ) -> Modes:
-        """Modes of ``pairs`` of omega^2 and phi, normalised, with their residuals.
-
-        Raises
-        ------
-        ModesError
-            When one exceeds ``RESIDUAL_TOLERANCE``.
-        """
         pairs = sorted(pairs, key=lambda pair: pair[0])
         Phi = np.column_stack([vector / np.sqrt(vector @ (self.M @ vector)) for _, vector in pairs])
         values = np.array([value for value, _ in pairs])

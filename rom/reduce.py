@@ -5,16 +5,15 @@ from numpy.typing import NDArray
 from scipy.linalg import eigh
 from scipy.sparse import csr_matrix
 
-from fem.cholesky import Cholesky
 from fem.matrices import Matrices
 from geometry.base import Say, counted, silent
 from geometry.blade import EnrichedBasis, PaperBasis, settings_of_basis
 from geometry.hats import mean, over_edges
 from geometry.tip import EDGES
 from rom.basis import Components, enriched_basis, paper_basis, project
+from rom.components import ComponentModes
 from rom.model import CODE, DIRECTIONS, Rom, require_letters
 from rom.modes import ModesError, ShiftInvert
-from rom.natural import NaturalModes, natural_modes
 from rom.polynomial import basis_speeds, interpolate
 
 MOST_CONDITION = 1e8  # of C; above, the mesh does not resolve the patches
@@ -25,7 +24,7 @@ def reduce(
     basis: EnrichedBasis | PaperBasis,
     directions: str = "rtz",
     say: Say = silent,
-    natural: NaturalModes | None = None,
+    components: ComponentModes | None = None,
 ) -> tuple[Rom, NDArray[np.float64]]:
     """Reduced model and its basis T (n_full, n).
 
@@ -35,7 +34,7 @@ def reduce(
     directions : of the interface DoFs: "r" radial, "rt" also tangential, "rtz" also axial, which a
         tip that tapers has in any case
     say : called after each speed with the number left
-    natural : modes at the speeds of ``fom``, which an enriched basis computes else
+    components : those of ``fom``, which an enriched basis computes else
 
     Raises
     ------
@@ -51,7 +50,13 @@ def reduce(
     further = isinstance(basis, EnrichedBasis) or len(fom.speeds) == len(wanted)
     if not (fom.given or (further and nearest <= 1e-12 * Omega_m)):
         raise ValueError(f"the basis needs the speeds {wanted}, not {fom.speeds}")
-    T = _basis(fom, basis, fom.rows(letters), say, natural)
+    T = (
+        _paper_basis(fom, basis, fom.rows(letters), say)
+        if isinstance(basis, PaperBasis)
+        else _enriched_basis(
+            fom, basis, letters, components or ComponentModes.of(fom, basis.natural_modes, say)
+        )
+    )
     # Eq. (1) projected by Eq. (5)
     M, K = project(fom.M, T), np.stack([project(K, T) for K in fom.K])
     lowest = eigh(K[0], M, eigvals_only=True, subset_by_index=[0, 0])[0]
@@ -79,23 +84,21 @@ def reduce(
     return rom, T
 
 
-def _basis(
-    fom: Matrices,
-    basis: EnrichedBasis | PaperBasis,
-    S: csr_matrix,
-    say: Say,
-    natural: NaturalModes | None,
+def _paper_basis(fom: Matrices, basis: PaperBasis, S: csr_matrix, say: Say) -> NDArray[np.float64]:
+    stiffnesses = counted(fom.K, len(fom.K), "speed", say)
+    at_speeds = [fixed_components(K, fom.M, S, basis.fixed_interface_modes) for K in stiffnesses]
+    return paper_basis(at_speeds, basis.rank_tolerance)
+
+
+def _enriched_basis(
+    fom: Matrices, basis: EnrichedBasis, letters: str, components: ComponentModes
 ) -> NDArray[np.float64]:
-    tolerance, stiffnesses = basis.rank_tolerance, counted(fom.K, len(fom.K), "speed", say)
-    if isinstance(basis, PaperBasis):
-        eta = basis.fixed_interface_modes
-        return paper_basis([fixed_components(K, fom.M, S, eta) for K in stiffnesses], tolerance)
-    natural, cholesky = natural or natural_modes(fom, basis.natural_modes), Cholesky()
+    S, kept = fom.rows(letters), fom.kept(letters)
     at_speeds = [
-        Components(constraint_modes(ShiftInvert(K, fom.M, cholesky), S)[1], Phi)
-        for K, Phi in zip(stiffnesses, natural.Phi[..., : basis.natural_modes], strict=True)
+        Components(constraint_modes(at.A[:, kept], S), at.modes.Phi)
+        for at in components.each(basis.natural_modes)
     ]
-    return enriched_basis(at_speeds, S, fom.K[0], fom.M, tolerance)
+    return enriched_basis(at_speeds, S, fom.K[0], fom.M, basis.rank_tolerance)
 
 
 def growth_of(fom: Matrices) -> NDArray[np.float64]:
@@ -131,19 +134,19 @@ def fixed_components(K: csr_matrix, M: csr_matrix, S: csr_matrix, eta: int) -> C
     K, M: (n_full, n_full), N/m and kg; S: (n_c, n_full). Raises ``ModesError``.
     """
     inverse = ShiftInvert(K, M)
-    A, Phi_R = constraint_modes(inverse, S)
+    A = inverse.solve(S.T.toarray())
+    Phi_R = constraint_modes(A, S)
     return Components(Phi_R, inverse.fixed_modes(A, Phi_R, S, eta).Phi)
 
 
-def constraint_modes(inverse: ShiftInvert, S: csr_matrix) -> tuple[NDArray, NDArray]:
-    """A = K^-1 S^T and Phi_R = A C^-1 (n_full, n_c).
+def constraint_modes(A: NDArray[np.float64], S: csr_matrix) -> NDArray[np.float64]:
+    """Phi_R = A C^-1 (n_full, n_c) of A = K^-1 S^T.
 
     Raises
     ------
     ModesError
         When C is singular to round-off.
     """
-    A = inverse.solve(S.T.toarray())
     C = S @ A
     C = (C + C.T) / 2
     scale = 1 / np.sqrt(np.diag(C))  # axial and radial compliances differ by orders of magnitude
@@ -155,4 +158,4 @@ def constraint_modes(inverse: ShiftInvert, S: csr_matrix) -> tuple[NDArray, NDAr
             key="interface.patches",
         )
     Phi_R = np.linalg.solve(C, A.T).T
-    return A, Phi_R - A @ np.linalg.solve(C, S @ Phi_R - np.eye(len(C)))  # S Phi_R = I
+    return Phi_R - A @ np.linalg.solve(C, S @ Phi_R - np.eye(len(C)))  # S Phi_R = I

@@ -8,8 +8,8 @@ from scipy.sparse import csr_matrix
 
 from geometry.blade import EnrichedBasis
 from rom.basis import Components, enriched_basis, paper_basis, project
+from rom.components import ComponentModes
 from rom.modes import ModesError, ShiftInvert
-from rom.natural import natural_modes
 from rom.reduce import constraint_modes, fixed_components, reduce
 
 
@@ -21,10 +21,8 @@ def at_three_speeds(paper_matrices):
 @pytest.fixture(scope="module")
 def at_four_speeds(coarse_matrices):
     fom = coarse_matrices
-    return [
-        Components(constraint_modes(ShiftInvert(K, fom.M), fom.S)[1], Phi)
-        for K, Phi in zip(fom.K, natural_modes(fom, 6).Phi, strict=True)
-    ]
+    each = ComponentModes.of(fom, 6).each(6)
+    return [Components(constraint_modes(at.A, fom.S), at.modes.Phi) for at in each]
 
 
 def left_out(T, columns):
@@ -171,7 +169,9 @@ def test_patches_that_the_mesh_does_not_resolve_are_refused(small):
     fom = small.matrices([0.0])
     S = fom.S.toarray()
     S[3] = S[0] * (1 + 1e-12)
-    error = refused(ModesError, constraint_modes, ShiftInvert(fom.K[0], fom.M), csr_matrix(S))
+    S = csr_matrix(S)
+    A = ShiftInvert(fom.K[0], fom.M).solve(S.T.toarray())
+    error = refused(ModesError, constraint_modes, A, S)
     assert error.key == "interface.patches"
 
 

@@ -12,7 +12,8 @@ from scipy.sparse import csr_matrix, diags, identity
 from fem.assemble import over_speeds
 from fem.cholesky import Cholesky
 from fem.matrices import Prestressed
-from rom.full_model import MODES, solve
+from rom.components import ComponentModes
+from rom.full_model import MODES, of_components, solve
 from rom.modes import ModesError, ShiftInvert
 
 
@@ -79,3 +80,17 @@ def test_a_stiffness_is_not_kept_beyond_its_speed(constants):
 def test_a_speed_that_is_not_stable_is_refused(constants):
     states = [Prestressed(speed, stiffness(speed), np.zeros(N), 0.0) for speed in (0.0, 20.0)]
     refused(ModesError, solve, constants, states, match="K is not positive definite")
+
+
+def test_components_of_some_speeds_and_others_are_one_full_model(full, check_matrices):
+    """As the workflow joins it; more modes than are compared change nothing."""
+    fom, ends = check_matrices, [0, 16]
+    known = ComponentModes.of(fom.at(fom.speeds[ends]), MODES + 4)
+    others = fom.at(np.delete(fom.speeds, ends))
+    joined = of_components(fom, known.each(MODES)).joined(solve(others, others.states()))
+    np.testing.assert_array_equal(joined.speeds, full.speeds)
+    np.testing.assert_allclose(joined.omega, full.omega, rtol=1e-9)
+    np.testing.assert_allclose(
+        joined.compliance, full.compliance, atol=1e-9 * full.compliance.max()
+    )
+    np.testing.assert_allclose(abs(joined.tip), abs(full.tip), atol=1e-6 * abs(full.tip).max())

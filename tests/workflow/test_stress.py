@@ -1,5 +1,7 @@
 """Stress of a sweep from shapes of its motion, against all its states through the fields."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import pyvista as pv
@@ -7,12 +9,13 @@ from runs import of_paper
 from scipy.spatial import cKDTree
 
 from fem.fatigue import FIVE, damage, margin, numbers, reserve, uniaxial, von_mises
-from fem.fields import TENSOR, airfoil, fields
+from fem.fields import TENSOR, airfoil, dofs_at, fields, linearised
 from fem.solid import read_solid
 from fem.worst_node import NodeStress, cycles, worst
 from geometry.base import ProvenanceError
 from geometry.blade import Fatigue
 from rom.coarser import coarser
+from rom.polynomial import evaluate
 from simulate.errors.model_errors import ModelError
 from simulate.scene import GROWING
 from simulate.sweeps.peak_results import (
@@ -321,3 +324,15 @@ def test_a_mesh_without_nodes_near_the_clamp_has_none_nearer(coarse_blade, sweep
     old = sweep.drop_vars(["strained", "strained_round"])
     with pytest.raises(ProvenanceError, match=r"sweep\.nc has no strained, strained_round"):
         job.revolutions(old)
+
+
+def test_stress_of_linear_prestress_is_in_the_square_of_the_speed(coarse_basis, coarse_rom, solid):
+    """Two powers hold that of rotation and of modes at any speed: as the field at that speed."""
+    modes = coarse_rom.modes(0.0)[1][:, :2]
+    basis = replace(coarse_basis, u_static=coarse_basis.u_static[:1])
+    sigma, Omega = stresses(solid, basis, modes, "linear"), 0.3 * basis.Omega_m
+    order = dofs_at(basis.coordinates, solid.free_coordinates()).ravel()
+    along = (basis.T @ modes).T[:, order]
+    (field,) = linearised(solid, basis.static(Omega)[order], along, "linear", strain=False)
+    assert len(sigma) == 2
+    np.testing.assert_allclose(evaluate(sigma, 0.3), field, atol=1e-12 * abs(field).max())

@@ -5,9 +5,9 @@ from pathlib import Path
 from fem.elsewhere import read_matrices
 from fem.matrices import Matrices
 from geometry.elsewhere import read_blade
+from rom.components import ComponentModes
 from rom.elsewhere import UNCHECKED, described, read_elsewhere
-from rom.full_model import solve as solve_at
-from rom.natural import NaturalModes
+from rom.full_model import MODES, of_components
 
 
 def read(blade: str, matrices: str) -> None:
@@ -20,8 +20,7 @@ def read(blade: str, matrices: str) -> None:
 
 def solve(matrices: str, modes: str, full: str) -> None:
     """Modes of the full model and its compliance, at the speeds of the matrices."""
-    fom = Matrices.load(matrices)
-    solved = solve_at(fom, fom.states(), natural=NaturalModes.load(modes))
+    solved = of_components(Matrices.load(matrices), ComponentModes.load(modes).each(MODES))
     print(f"largest residual of a mode: {solved.residuals.max():.1e}")
     solved.save(full)
 

@@ -2,15 +2,17 @@
 
 from pathlib import Path
 
+import numpy as np
+
 from fem.assemble import over_speeds
 from fem.cholesky import Cholesky
 from fem.matrices import Matrices
 from fem.second_order import SecondOrder
 from fem.solid import read_solid
-from geometry.base import Say, counted, silent
+from geometry.base import ProvenanceError, Say, anew, counted, silent
 from geometry.blade import Blade
-from rom.full_model import FullModel, resolved, solve as solve_at
-from rom.natural import NaturalModes
+from rom.components import ComponentModes
+from rom.full_model import MODES, FullModel, of_components, resolved, solve as solve_at
 from rom.polynomial import basis_speeds
 
 
@@ -37,21 +39,31 @@ def assembled(blade: Blade, name: str, mesh: str | Path, say: Say = silent) -> M
 
 def solve(blade: str, mesh: str, modes: str, speeds: list[float], full: str, tell: Say) -> None:
     """Modes and compliance at the ``speeds`` of the check, rad/s; some ``modes`` are known."""
-    solved = solved_at(speeds, blade, mesh, tell, NaturalModes.load(modes))
+    solved = solved_at(speeds, blade, mesh, tell, modes)
     print(f"largest residual of a mode: {solved.residuals.max():.1e}")
     solved.save(full)
 
 
 def solved_at(
-    speeds: list[float],
-    blade: str,
-    mesh: str,
-    say: Say = silent,
-    natural: NaturalModes | None = None,
+    speeds: list[float], blade: str, mesh: str, say: Say = silent, modes: str = ""
 ) -> FullModel:
-    """The full model of the blade in a file at ``speeds``, rad/s; ``natural``: modes of some."""
+    """The full model of the blade in a file at ``speeds``, rad/s; those with ``modes`` are known.
+
+    Raises
+    ------
+    geometry.base.provenance.ProvenanceError
+        When the modes have their nodes in another order than the mesh.
+    """
     settings, cholesky = Blade.load(blade), Cholesky()
     solid = read_solid(str(mesh), settings.material)
-    fom, states = over_speeds(settings, Path(blade).stem, mesh, speeds, cholesky, solid)
     along = SecondOrder(solid, settings.prestress).along
-    return solve_at(fom, counted(states, len(speeds), "speed", say), cholesky, along, natural)
+    known = ComponentModes.load(modes) if modes else None
+    further = [speed for speed in speeds if known is None or speed not in known.speeds]
+    fom, states = over_speeds(settings, Path(blade).stem, mesh, further, cholesky, solid)
+    solved = solve_at(fom, counted(states, len(further), "speed", say), cholesky, along)
+    if known is None:
+        return solved
+    if not np.array_equal(known.coordinates, fom.coordinates):
+        raise ProvenanceError(f"{modes}: other nodes than those of the mesh; {anew(modes)}")
+    at_speeds = (at for at in known.each(MODES) if at.speed in speeds)
+    return of_components(fom, at_speeds, along).joined(solved)

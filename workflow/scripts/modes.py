@@ -1,4 +1,4 @@
-"""Natural modes of a blade."""
+"""Component modes of a blade."""
 
 from adapter import job
 
