@@ -157,7 +157,7 @@ def further_speeds(
 
     Between the speeds of its ``basis``, ascending, a smooth K(Omega) errs by c w, w the product of
     the distances to them in Omega^2, with about the same c everywhere. Where that of two neighbours
-    among ``check_speeds`` differs by more than ``APART`` times, and the error matters, two more
+    among its speeds differs by more than ``APART`` times, and the error matters, two more
     speeds around each of them tell more.
     """
     x = (basis / basis[-1]) ** 2

@@ -1,10 +1,10 @@
 """``modes.h5``: component modes of the full model at the speeds of its matrices.
 
-The basis of the reduced model takes them, whatever its directions, and so does the full model with
-which it is compared.
+The basis of the reduced model takes them, whatever its directions; the full model with which it is
+compared has the same at these speeds.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Self
 
@@ -43,6 +43,15 @@ class AtSpeed:
         return cls(state.speed, modes, inverse.solve(fom.S.T.toarray()), state.u_static)
 
 
+def at_speeds(fom: Matrices, count: int, say: Say = silent) -> list[AtSpeed]:
+    """Component modes at the speeds of ``fom``, with ``count`` natural ones.
+
+    ``say``: called after each speed. Raises the errors of ``AtSpeed.of``.
+    """
+    cholesky, states = Cholesky(), counted(fom.states(), len(fom.speeds), "speed", say)
+    return [AtSpeed.of(fom, state, count, cholesky) for state in states]
+
+
 @frozen
 class ComponentModes(Stored):
     """Component modes at all speeds, ascending."""
@@ -52,34 +61,17 @@ class ComponentModes(Stored):
     speeds: NDArray[np.float64] = stored("speed", "rad s-1")
     omega: NDArray[np.float64] = stored("speed mode", "rad s-1")
     Phi: NDArray[np.float64] = stored("speed dof mode", "kg-1/2")
-    residuals: NDArray[np.float64] = stored("speed mode")
     A: NDArray[np.float64] = stored("speed dof interface", "m N-1")  # K^-1 S^T
-    u_static: NDArray[np.float64] = stored("speed dof", "m", may_be_nan=True)
-    coordinates: NDArray[np.float64] = stored("point xyz", "m")  # free nodes
     provenance: Provenance  # that of the matrices
 
     @classmethod
-    def of(cls, fom: Matrices, count: int, say: Say = silent) -> Self:
-        """Those of ``fom``, with its lowest ``count`` modes; ``say``: called after each speed.
-
-        Raises the errors of ``AtSpeed.of``.
-        """
-        cholesky, states = Cholesky(), counted(fom.states(), len(fom.speeds), "speed", say)
-        each = [AtSpeed.of(fom, state, count, cholesky) for state in states]
+    def of(cls, fom: Matrices, each: Iterable[AtSpeed]) -> Self:
+        """Those of ``fom`` at each of its speeds."""
+        modes, A = zip(*((at.modes, at.A) for at in each), strict=True)
         return cls(
             speeds=fom.speeds,
-            omega=np.array([at.modes.omega for at in each]),
-            Phi=np.array([at.modes.Phi for at in each]),
-            residuals=np.array([at.modes.residuals for at in each]),
-            A=np.array([at.A for at in each]),
-            u_static=fom.u_static,
-            coordinates=fom.coordinates,
+            omega=np.array([of_speed.omega for of_speed in modes]),
+            Phi=np.array([of_speed.Phi for of_speed in modes]),
+            A=np.array(A),
             provenance=fom.provenance,
         )
-
-    def each(self, count: int) -> Iterator[AtSpeed]:
-        """Those of each speed, with the lowest ``count`` modes."""
-        for j, speed in enumerate(self.speeds):
-            of_speed = self.omega[j], self.Phi[j].T, self.residuals[j]
-            omega, Phi, residuals = (values[:count] for values in of_speed)
-            yield AtSpeed(speed, Modes(omega, Phi.T, residuals), self.A[j], self.u_static[j])

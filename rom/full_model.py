@@ -104,7 +104,10 @@ def solve(
 def of_components(
     fom: Constants, at_speeds: Iterable[AtSpeed], along: Along | None = None
 ) -> FullModel:
-    """The full model, of its component modes at ascending speeds; ``along``: as of ``solve``."""
+    """The full model, of its component modes at ascending speeds; ``along``: as of ``solve``.
+
+    More than ``MODES`` natural modes may be known.
+    """
     P = over_edges(EDGES, fom.xi, mean(fom.across))
     edges = np.stack([P @ fom.rows(letter) for letter in "rtz"])
     radius = on_line(fom.camber, np.array(EDGES))[:, :1]
@@ -122,7 +125,8 @@ def of_components(
                 x = loaded[:, edge] - Phi[:, mode] * tip[0, edge, mode] / omega[mode] ** 2
                 second[edge, mode] = along(at.u_static, x, Phi[:, mode])
         second += tip[1] ** 2 / 2 / radius
-        rows.append((at.speed, modes.omega, modes.residuals, compliance, tip, second))
+        compared = modes.omega[:MODES], modes.residuals[:MODES]
+        rows.append((at.speed, *compared, compliance, tip, second))
         shapes = shapes or [modes.Phi]
     speeds, omega, residuals, compliances, tip, second = map(np.array, zip(*rows, strict=True))
     return FullModel(

@@ -67,12 +67,10 @@ def node_polynomial(x: NDArray[np.float64], x_at: NDArray[np.float64]) -> NDArra
     return abs(np.atleast_1d(x_at)[:, None] - x).prod(axis=1)
 
 
-def check_speeds(basis: ArrayLike) -> NDArray[np.float64]:
-    """Speeds (2 n - 1,) at which a model with the ``basis`` speeds (n,) is checked, rad/s.
+def speeds_between(basis: ArrayLike) -> NDArray[np.float64]:
+    """Speeds (n - 1,), rad/s, at which a model is checked beside its ``basis`` speeds (n,).
 
-    Those of the basis, at which missing modes show alone, and between each two of them that at
-    which the polynomial K(Omega) errs most.
+    At these missing modes show alone; between each two, the polynomial K(Omega) errs most here.
     """
     basis = np.asarray(basis)
-    between = basis[-1] * np.sqrt(places_between((basis / basis[-1]) ** 2))
-    return np.sort(np.concatenate([basis, between]))
+    return basis[-1] * np.sqrt(places_between((basis / basis[-1]) ** 2))

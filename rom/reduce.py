@@ -11,7 +11,7 @@ from geometry.blade import EnrichedBasis, PaperBasis, settings_of_basis
 from geometry.hats import mean, over_edges
 from geometry.tip import EDGES
 from rom.basis import Components, enriched_basis, paper_basis, project
-from rom.components import ComponentModes
+from rom.components import ComponentModes, at_speeds
 from rom.model import CODE, DIRECTIONS, Rom, require_letters
 from rom.modes import ModesError, ShiftInvert
 from rom.polynomial import basis_speeds, interpolate
@@ -54,7 +54,10 @@ def reduce(
         _paper_basis(fom, basis, fom.rows(letters), say)
         if isinstance(basis, PaperBasis)
         else _enriched_basis(
-            fom, basis, letters, components or ComponentModes.of(fom, basis.natural_modes, say)
+            fom,
+            basis,
+            letters,
+            components or ComponentModes.of(fom, at_speeds(fom, basis.natural_modes, say)),
         )
     )
     # Eq. (1) projected by Eq. (5)
@@ -86,19 +89,20 @@ def reduce(
 
 def _paper_basis(fom: Matrices, basis: PaperBasis, S: csr_matrix, say: Say) -> NDArray[np.float64]:
     stiffnesses = counted(fom.K, len(fom.K), "speed", say)
-    at_speeds = [fixed_components(K, fom.M, S, basis.fixed_interface_modes) for K in stiffnesses]
-    return paper_basis(at_speeds, basis.rank_tolerance)
+    each = [fixed_components(K, fom.M, S, basis.fixed_interface_modes) for K in stiffnesses]
+    return paper_basis(each, basis.rank_tolerance)
 
 
 def _enriched_basis(
     fom: Matrices, basis: EnrichedBasis, letters: str, components: ComponentModes
 ) -> NDArray[np.float64]:
     S, kept = fom.rows(letters), fom.kept(letters)
-    at_speeds = [
-        Components(constraint_modes(at.A[:, kept], S), at.modes.Phi)
-        for at in components.each(basis.natural_modes)
+    modes = components.Phi[..., : basis.natural_modes]
+    each = [
+        Components(constraint_modes(A[:, kept], S), Phi)
+        for A, Phi in zip(components.A, modes, strict=True)
     ]
-    return enriched_basis(at_speeds, S, fom.K[0], fom.M, basis.rank_tolerance)
+    return enriched_basis(each, S, fom.K[0], fom.M, basis.rank_tolerance)
 
 
 def growth_of(fom: Matrices) -> NDArray[np.float64]:

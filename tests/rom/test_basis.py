@@ -8,7 +8,7 @@ from scipy.sparse import csr_matrix
 
 from geometry.blade import EnrichedBasis
 from rom.basis import Components, enriched_basis, paper_basis, project
-from rom.components import ComponentModes
+from rom.components import at_speeds
 from rom.modes import ModesError, ShiftInvert
 from rom.reduce import constraint_modes, fixed_components, reduce
 
@@ -21,7 +21,7 @@ def at_three_speeds(paper_matrices):
 @pytest.fixture(scope="module")
 def at_four_speeds(coarse_matrices):
     fom = coarse_matrices
-    each = ComponentModes.of(fom, 6).each(6)
+    each = at_speeds(fom, 6)
     return [Components(constraint_modes(at.A, fom.S), at.modes.Phi) for at in each]
 
 

@@ -12,7 +12,7 @@ from scipy.sparse import csr_matrix, diags, identity
 from fem.assemble import over_speeds
 from fem.cholesky import Cholesky
 from fem.matrices import Prestressed
-from rom.components import ComponentModes
+from rom.components import at_speeds
 from rom.full_model import MODES, of_components, solve
 from rom.modes import ModesError, ShiftInvert
 
@@ -85,9 +85,9 @@ def test_a_speed_that_is_not_stable_is_refused(constants):
 def test_components_of_some_speeds_and_others_are_one_full_model(full, check_matrices):
     """As the workflow joins it; more modes than are compared change nothing."""
     fom, ends = check_matrices, [0, 16]
-    known = ComponentModes.of(fom.at(fom.speeds[ends]), MODES + 4)
+    known = at_speeds(fom.at(fom.speeds[ends]), MODES + 4)
     others = fom.at(np.delete(fom.speeds, ends))
-    joined = of_components(fom, known.each(MODES)).joined(solve(others, others.states()))
+    joined = of_components(fom, known).joined(solve(others, others.states()))
     np.testing.assert_array_equal(joined.speeds, full.speeds)
     np.testing.assert_allclose(joined.omega, full.omega, rtol=1e-9)
     np.testing.assert_allclose(

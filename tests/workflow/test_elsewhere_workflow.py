@@ -94,7 +94,7 @@ def test_full_matrices_are_reduced_and_checked_at_their_speeds(project, full_mat
     assert fault in project.run("-n", target, expect=1)
     for file in full_matrices:
         file.touch()
-    jobs = {"read_matrices": 1, "reduce": 1, "solve_given_model": 1, "check_rom": 1}
+    jobs = {"read_matrices": 1, "modes": 1, "reduce": 1, "check_rom": 1}
     assert project.planned(target) == jobs
     said = project.call("workflow.new", str(project.folder), "scene", "rub-plain", "plain")
     run, snakemake, *arguments = shlex.split(said.split("then: ")[1])

@@ -31,8 +31,9 @@ TARGETS = (f"{BLADE}/paper-e1/sweep.nc", f"{BLADE}/peak-e1/stress.vtu", f"{BLADE
 KILLS = {
     "build_mesh": (2, 0.9),
     "assemble": (3, 2.4),
-    "solve_full_model": (3, 2.6),
-    "reduce": (3, 2.2),
+    "modes": (3, 2.6),
+    "solve_between": (3, 2.6),
+    "reduce": (3, 1.5),
     "check_rom": (2, 1.2),
     "check_scene": (2, 1.5),
     "sweep_block": (4, 2.6),

@@ -119,7 +119,7 @@ ON_DEMAND = {
         "draw_mesh_convergence": 1,
         "study_mesh": 1,
         "reduce": 0,
-        "solve_full_model": 0,
+        "modes": 0,
     },
     # a blade without a scene
     ("results/figures/campbell-rotor37.png", "results/figures/modes-rotor37.png"): {

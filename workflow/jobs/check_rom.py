@@ -11,6 +11,7 @@ from rom.model import Rom
 def compare(
     rom: str,
     full: str,
+    between: str,
     settings: str,
     tolerance: float,
     speeds: list[float] | None,
@@ -20,6 +21,7 @@ def compare(
 ) -> None:
     """Compare both models; at further speeds, too, where neighbours among ``speeds`` disagree.
 
+    ``between``: the full model at further speeds, for a blade that has a mesh.
     ``settings``: the blade's file; ``speeds``: of its basis, rad/s, None for matrices from
     elsewhere, which have no others, nor a mesh.
 
@@ -29,6 +31,8 @@ def compare(
         When the error exceeds the tolerance, %.
     """
     reduced, full_model = Rom.load(rom), FullModel.load(full)
+    if between:
+        full_model = full_model.joined(FullModel.load(between))
     result = check(reduced, full_model)
     more = further_speeds(result, np.array(speeds), tolerance) if speeds else np.empty(0)
     if more.size:

@@ -11,7 +11,7 @@ from fem.second_order import SecondOrder
 from fem.solid import read_solid
 from geometry.base import ProvenanceError, Say, anew, counted, silent
 from geometry.blade import Blade
-from rom.components import ComponentModes
+from rom.components import ComponentModes, at_speeds
 from rom.full_model import MODES, FullModel, of_components, resolved, solve as solve_at
 from rom.polynomial import basis_speeds
 
@@ -37,33 +37,44 @@ def assembled(blade: Blade, name: str, mesh: str | Path, say: Say = silent) -> M
     return resolved(fom, states, speeds, blade.basis, say)
 
 
-def solve(blade: str, mesh: str, modes: str, speeds: list[float], full: str, tell: Say) -> None:
-    """Modes and compliance at the ``speeds`` of the check, rad/s; some ``modes`` are known."""
-    solved = solved_at(speeds, blade, mesh, tell, modes)
-    print(f"largest residual of a mode: {solved.residuals.max():.1e}")
-    solved.save(full)
+def solve_modes(
+    blade: str, matrices: str, mesh: str, count: int, modes: str, full: str, tell: Say
+) -> None:
+    """Component modes at the speeds of the matrices, ``count`` natural ones; the full model there.
 
-
-def solved_at(
-    speeds: list[float], blade: str, mesh: str, say: Say = silent, modes: str = ""
-) -> FullModel:
-    """The full model of the blade in a file at ``speeds``, rad/s; those with ``modes`` are known.
+    ``mesh``: that of a blade which has one; else the second order of vibrations is not known.
 
     Raises
     ------
     geometry.base.provenance.ProvenanceError
-        When the modes have their nodes in another order than the mesh.
+        When the matrices have their nodes in another order than the mesh.
     """
+    fom, along = Matrices.load(matrices), None
+    if mesh:
+        settings = Blade.load(blade)
+        solid = read_solid(mesh, settings.material)
+        if not np.array_equal(solid.free_coordinates(), fom.coordinates):
+            raise ProvenanceError(f"nodes as in no mesh read now; {anew(matrices)}", file=matrices)
+        along = SecondOrder(solid, settings.prestress).along
+    each = at_speeds(fom, max(count, MODES), tell)
+    ComponentModes.of(fom, each).save(modes)
+    _save(of_components(fom, each, along), full)
+
+
+def solve(blade: str, mesh: str, speeds: list[float], full: str, tell: Say) -> None:
+    """Modes and compliance at further ``speeds``, rad/s."""
+    _save(solved_at(speeds, blade, mesh, tell), full)
+
+
+def _save(solved: FullModel, full: str) -> None:
+    print(f"largest residual of a mode: {solved.residuals.max():.1e}")
+    solved.save(full)
+
+
+def solved_at(speeds: list[float], blade: str, mesh: str, say: Say = silent) -> FullModel:
+    """The full model of the blade in a file at ``speeds``, rad/s."""
     settings, cholesky = Blade.load(blade), Cholesky()
     solid = read_solid(str(mesh), settings.material)
+    fom, states = over_speeds(settings, Path(blade).stem, mesh, speeds, cholesky, solid)
     along = SecondOrder(solid, settings.prestress).along
-    known = ComponentModes.load(modes) if modes else None
-    further = [speed for speed in speeds if known is None or speed not in known.speeds]
-    fom, states = over_speeds(settings, Path(blade).stem, mesh, further, cholesky, solid)
-    solved = solve_at(fom, counted(states, len(further), "speed", say), cholesky, along)
-    if known is None:
-        return solved
-    if not np.array_equal(known.coordinates, fom.coordinates):
-        raise ProvenanceError(f"{modes}: other nodes than those of the mesh; {anew(modes)}")
-    at_speeds = (at for at in known.each(MODES) if at.speed in speeds)
-    return of_components(fom, at_speeds, along).joined(solved)
+    return solve_at(fom, counted(states, len(speeds), "speed", say), cholesky, along)

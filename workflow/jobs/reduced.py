@@ -1,17 +1,11 @@
-"""Component modes of a blade; its reduced model, and its basis."""
+"""The reduced model, and its basis."""
 
 from fem.matrices import Matrices
 from geometry.base import Say
 from geometry.elsewhere import read_blade
 from rom.components import ComponentModes
-from rom.full_model import MODES
 from rom.reconstruct import Basis
 from rom.reduce import reduce
-
-
-def solve(matrices: str, count: int, modes: str, tell: Say) -> None:
-    """Component modes of M and K(Omega): ``count`` natural ones, or those of the check if more."""
-    ComponentModes.of(Matrices.load(matrices), max(count, MODES), tell).save(modes)
 
 
 def make(

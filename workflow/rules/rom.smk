@@ -2,8 +2,10 @@ rule modes:
     input:
         code=code_of("modes"),
         matrices="results/{blade}/matrices.h5",
+        mesh=blades.mesh,
     output:
         modes="results/{blade}/modes.h5",
+        full="results/{blade}/full-model.nc",
     log:
         "results/{blade}/logs/modes.log",
     benchmark:
@@ -11,6 +13,8 @@ rule modes:
     wildcard_constraints:
         blade=one_of(blades.reduced),
     params:
+        blade=blades.file,
+        uses=blades.uses("material", "prestress"),
         natural=blades.modes_of_basis,
     message:
         "Modes of blade {wildcards.blade} at the speeds of the basis"
@@ -41,45 +45,27 @@ rule reduce:
         "../scripts/reduce.py"
 
 
-rule solve_full_model:
+# Beside the modes: the speeds at which the polynomial K(Omega) errs most.
+rule solve_between:
     input:
-        code=code_of("solve_full_model"),
+        code=code_of("solve_between"),
         mesh="results/{blade}/blade.msh",
-        modes="results/{blade}/modes.h5",
     output:
-        full="results/{blade}/full-model.nc",
+        full="results/{blade}/full-between.nc",
     log:
-        "results/{blade}/logs/full-model.log",
+        "results/{blade}/logs/full-between.log",
     benchmark:
-        "results/{blade}/benchmarks/full-model.tsv"
+        "results/{blade}/benchmarks/full-between.tsv"
     wildcard_constraints:
         blade=one_of(blades.meshed),
     params:
         blade=blades.file,
         uses=blades.uses(*FEM_USES),
-        speeds=blades.speeds_of_check,
+        speeds=blades.speeds_between,
     message:
-        "Modes and tip compliance of the full model of blade {wildcards.blade}"
+        "Full model of blade {wildcards.blade} between the speeds of the basis"
     script:
-        "../scripts/solve_full_model.py"
-
-
-# At the speeds of the matrices from elsewhere: no others are known.
-rule solve_given_model:
-    input:
-        code=code_of("solve_given_model"),
-        matrices="results/{blade}/matrices.h5",
-        modes="results/{blade}/modes.h5",
-    output:
-        full="results/{blade}/full-model.nc",
-    log:
-        "results/{blade}/logs/full-model.log",
-    wildcard_constraints:
-        blade=one_of(blades.with_matrices),
-    message:
-        "Modes and tip compliance of the full model of blade {wildcards.blade}, from elsewhere"
-    script:
-        "../scripts/solve_given_model.py"
+        "../scripts/solve_between.py"
 
 
 rule take_rom:
@@ -107,6 +93,7 @@ rule check_rom:
         mesh=blades.mesh,
         code=code_of("check_rom"),
         full="results/{blade}/full-model.nc",
+        between=blades.between,
         rom="results/{blade}/rom-{directions}.nc",
     output:
         checked="results/{blade}/rom-check-{directions}.nc",

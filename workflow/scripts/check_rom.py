@@ -9,6 +9,7 @@ job(
     lambda of, tell: compare(
         of.input.rom,
         of.input.full,
+        of.input.between,
         of.params.settings,
         of.params.tolerance,
         of.params.speeds,

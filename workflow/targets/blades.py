@@ -11,7 +11,7 @@ from typing import Any, Self
 from geometry.base import SettingsError, hashes, printable, yaml_file
 from geometry.blade import Blade
 from geometry.elsewhere import ELSEWHERE, MatricesElsewhere, ModelElsewhere, read_blade
-from rom.polynomial import basis_speeds, check_speeds
+from rom.polynomial import basis_speeds, speeds_between
 from workflow.targets.inputs import OfJob, Once, Told
 
 FOLDER = "workflow/blades"
@@ -104,9 +104,14 @@ class Blades:
         speeds = basis_speeds(blade.basis, blade.top_speed).tolist()
         return speeds, blade.basis.tolerance_percent
 
-    def speeds_of_check(self, wildcards: Any) -> list[float]:
-        """Speeds at which the reduced model is checked, rad/s."""
-        return check_speeds(self.speeds_of_basis(wildcards)[0]).tolist()
+    def speeds_between(self, wildcards: Any) -> list[float]:
+        """Speeds at which the reduced model is checked beside those of its basis, rad/s."""
+        return speeds_between(self.speeds_of_basis(wildcards)[0]).tolist()
+
+    def between(self, wildcards: Any) -> list[str] | str:
+        """The full model at these speeds, where the blade has a mesh."""
+        blade = wildcards.blade
+        return f"results/{blade}/full-between.nc" if blade in self.meshed else []
 
     def mesh(self, wildcards: Any) -> list[str] | str:
         """The blade's mesh, where it has one."""
