@@ -7,7 +7,6 @@ Nodes are the corners 0 to 3, then the middles of the edges (0,1), (1,2), (0,2),
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
 from geometry.base import require
 
@@ -120,6 +119,8 @@ def _pieces(member: NDArray, shared: NDArray) -> NDArray:
     """Number of the connected component of each member; those with the same ``shared`` connect."""
     n = int(member.max()) + 1
     shape = (n + int(shared.max()) + 1,) * 2
+    from scipy.sparse.csgraph import connected_components  # slow, and few jobs need it
+
     graph = coo_matrix((np.ones(len(member)), (member, n + shared)), shape=shape)
     return connected_components(graph, directed=False)[1][:n]
 

@@ -10,7 +10,6 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import maximum_filter1d
 
 from simulate.contact.compiled import FIRST, compiled
 from simulate.contact.rod_law import RodLaw
@@ -64,6 +63,8 @@ class Strips(NamedTuple):
 
 def largest_over_window(d: NDArray[np.float64], m: int) -> NDArray[np.float64]:
     """Largest of d[j], ..., d[j + m - 1] around the circumference, (nu,)."""
+    from scipy.ndimage import maximum_filter1d  # a slow import, for jobs that march alone
+
     return maximum_filter1d(d, m, mode="wrap", origin=-(m // 2))
 
 

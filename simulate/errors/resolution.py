@@ -20,7 +20,6 @@ than most right ones.
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import label, maximum
 
 from simulate.contact.places import rods_in_footprint
 from simulate.contact.travelling import distortion_passed, farthest
@@ -121,6 +120,8 @@ def shortest_window(setup: Setup, deepest: float) -> float:
 
 def _windows(depth: NDArray[np.float64]) -> NDArray[np.float64]:
     """Lengths, in rods, of the windows of a relative ``depth`` (nu,); inf if all around."""
+    from scipy.ndimage import label, maximum  # a slow import, for jobs that march alone
+
     inside = depth > EDGE
     if inside.all():
         return np.array([np.inf])
