@@ -33,6 +33,7 @@ def test_digits_of_the_verification_page_are_those_of_ccx(digits, tmp_path, monk
     np.testing.assert_allclose(digits(), kept, rtol=1e-6, atol=1e-6)
 
 
+@pytest.mark.slow
 @needs_ccx
 def test_bricks_are_as_soft_as_their_tetrahedra(coarse_blade):
     """At fewer points they are softer. Measured -0.01 to 0.31 % in the first six frequencies."""

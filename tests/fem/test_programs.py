@@ -221,6 +221,7 @@ def test_constrained_nodes_off_the_root_are_refused(of_calculix):
     assert fom.M.shape == of.M.shape
 
 
+@pytest.mark.slow
 def test_other_units_order_or_mesh_are_refused(of_calculix):
     of, _ = of_calculix
     for program in ("CalculiX", "Nastran, DMIG"):
@@ -429,6 +430,7 @@ def test_between_its_speeds_the_reduced_model_is_calculix(straight, coarse_blade
         np.testing.assert_allclose(found, theirs, rtol=1e-4)
 
 
+@pytest.mark.nightly
 @needs_ccx
 @pytest.mark.parametrize("kind", ["C3D20R", "C3D15"])
 def test_bricks_of_calculix_keep_its_frequencies(kind, coarse_blade, tmp_path):

@@ -41,6 +41,7 @@ def built(blade, path, tmp_path, size, root=71, tip=149.5):
     return build_mesh(blade, tmp_path / "blade.msh", path), tmp_path / "blade.msh"
 
 
+@pytest.mark.slow
 def test_loft_of_round_edges_has_its_volume(coarse_blade, tmp_path, capsys):
     """Edges of 0.26 to 0.01 mm radius: OpenCASCADE has 3.1 % less, plain 4 mm cells 0.16 %."""
     path = solids.write(tmp_path / "b.step", solids.elliptic)

@@ -212,6 +212,7 @@ def test_a_result_imports_nothing(mine, tmp_path, trap, coarse_rom, monkeypatch)
     assert "evil" not in sys.modules
 
 
+@pytest.mark.slow
 def test_the_command_line_takes_the_file_of_a_law(mine, coarse_rom, tmp_path):
     (mine / "workflow/laws/foam.py").rename(tmp_path / "foam.py")
     coarse_rom.save("rom-r.nc")
@@ -404,7 +405,9 @@ def test_odd_names_of_laws_and_schemes_are_refused_in_lines(mine, trap):
     assert {*sys.modules} == before
 
 
-@pytest.mark.parametrize("suffix", [".msh", ".inp", ".vtu"])
+@pytest.mark.parametrize(
+    "suffix", [".msh", *(pytest.param(of, marks=pytest.mark.nightly) for of in (".inp", ".vtu"))]
+)
 def test_odd_names_of_groups_are_shown_in_lines(tmp_path, suffix, coarse_files, coarse_blade):
     """Of a mesh file that is refused, as far as meshio writes them, and of the group asked for."""
     values, tried = coarse_blade.model_dump(exclude_unset=True), 0

@@ -45,7 +45,6 @@ from simulate.sweeps.over_speeds import as_sweep, at_speeds, check_sweep, march_
 BLADES = ROOT / "workflow/blades"
 ASKED, SPEEDS = 0.01, 12
 DRAWN = {0.01: 16, 0.02: 12, 0.05: 12, 0.1: 12}  # scenes by accuracy
-USUAL = 0.1  # the others are nightly
 # Steps marched over those set by hand, median of the scenes: as asked for at 5 and 10 % alone
 MEDIAN_COST = {0.01: 2.1, 0.02: 1.7, 0.05: 1.5, 0.1: 1.5}
 FINER = 4  # times the steps of a run, in its reference
@@ -176,13 +175,8 @@ def carried_out(case, models, taken):
     )
 
 
-@pytest.mark.parametrize(
-    "asked",
-    [
-        pytest.param(asked, marks=pytest.mark.slow if asked == USUAL else pytest.mark.nightly)
-        for asked in DRAWN
-    ],
-)
+@pytest.mark.nightly
+@pytest.mark.parametrize("asked", DRAWN)
 def test_drawn_scenes_meet_their_accuracy(asked, reference, rotor37, monkeypatch):
     """Errors of step, rods, strips and model together; share of sensitive runs; steps marched.
 

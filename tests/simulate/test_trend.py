@@ -212,6 +212,7 @@ def test_what_is_recorded_over_time_is_that_of_as_many_rounds(coarse_rom, tmp_pa
         assert "since the end" in until[time].attrs["long_name"]
 
 
+@pytest.mark.slow
 def test_a_run_that_shorter_steps_mend_has_the_times_of_its_sweep(coarse_rom, tmp_path):
     """All but one run of a sweep until steady are of its own steps; all end at 0."""
     stiff = {"kind": "plastic", "E": 100.0, "K": 45.0, "sigma_Y": 1e-8, "unit_MPa": 2000}

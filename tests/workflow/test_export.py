@@ -25,6 +25,7 @@ from rom.model import Rom
 from rom.reconstruct import Basis
 from workflow.export import MOST_STEPS, steps
 
+pytestmark = pytest.mark.slow  # of whole sweeps
 SCENE = "results/paper/paper-e1"
 AXES = {"downstream": "x", "radial": "-y", "rotation": "left-handed"}
 

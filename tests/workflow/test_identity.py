@@ -65,6 +65,7 @@ FILES = {  # of the user, with the output whose job reads it
     "workflow/scenes/laws.csv": "results/foreign/laws/design-block-0.json",
     "workflow/scenes/within.csv": "results/foreign/laws/design-block-0.json",
 }
+BY_DAY = "a.step", "M.mtx", "foreign.nc", "helper.py", "rows.csv"  # one of each kind
 NO_JOB = """
 from pathlib import Path
 
@@ -161,8 +162,13 @@ def test_other_bytes_with_an_old_time_rerun_what_read_them(copy, attack):
     assert not copy.planned(*OUTPUTS)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("path", FILES)
+@pytest.mark.parametrize(
+    "path",
+    [
+        pytest.param(of, marks=pytest.mark.slow if Path(of).name in BY_DAY else pytest.mark.nightly)
+        for of in FILES
+    ],
+)
 def test_each_file_alone_reruns_the_job_that_reads_it(copy, path):
     replaced_by_older(copy.folder / path, texts("7")[path])
     both = {"results/foreign/rows/design-block-0.json", "results/foreign/curved/block-0.nc"}

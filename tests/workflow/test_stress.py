@@ -66,6 +66,7 @@ def write(blade, mesh, rom, basis_file, sweep):
     return job.write(blade, str(mesh.mesh), rom, str(basis_file), sweep, names, str(vtu)), vtu
 
 
+@pytest.mark.slow
 def test_the_worst_node_is_that_of_all_states_marched_through_the_fields(
     written, sweep, coarse_blade, coarse_mesh, coarse_basis, solid
 ):
