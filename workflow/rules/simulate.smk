@@ -41,7 +41,7 @@ rule kernels:
     input:
         code=code_of("kernels"),
     output:
-        compiled=touch("results/kernels"),
+        compiled=touch("results/logs/kernels"),
     log:
         "results/logs/kernels.log",
     localrule: True
@@ -56,7 +56,7 @@ rule kernels:
 rule sweep_block:
     input:
         code=code_of("sweep_block"),
-        kernels=ancient("results/kernels"),
+        kernels=ancient("results/logs/kernels"),
         rom=scenes.rom,
         check=ancient(scenes.check),
         checked=scenes.checked,
