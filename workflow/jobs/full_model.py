@@ -54,7 +54,9 @@ def solve_modes(
         settings = Blade.load(blade)
         solid = read_solid(mesh, settings.material)
         if not np.array_equal(solid.free_coordinates(), fom.coordinates):
-            raise ProvenanceError(f"nodes as in no mesh read now; {anew(matrices)}", file=matrices)
+            raise ProvenanceError(
+                f"its nodes are not as the mesh is read now; {anew(matrices)}", file=matrices
+            )
         along = SecondOrder(solid, settings.prestress).along
     each = at_speeds(fom, max(count, MODES), tell)
     ComponentModes.of(fom, each).save(modes)
