@@ -35,6 +35,7 @@ rule assemble:
         "results/{blade}/benchmarks/assemble.tsv"
     wildcard_constraints:
         blade=one_of(blades.meshed),
+    priority: LONGEST
     params:
         blade=blades.file,
         uses=blades.uses(*FEM_USES),

@@ -53,6 +53,7 @@ rule stress:
         "results/{blade}/{scene}/logs/stress.log",
     benchmark:
         "results/{blade}/{scene}/benchmarks/stress.tsv"
+    priority: LONGEST
     params:
         blade=blades.file,
         uses=blades.uses("material", "prestress", "fatigue", "stress", *SOURCES),

@@ -12,6 +12,7 @@ rule modes:
         "results/{blade}/benchmarks/modes.tsv"
     wildcard_constraints:
         blade=one_of(blades.reduced),
+    priority: LONGEST
     params:
         blade=blades.file,
         uses=blades.uses("material", "prestress"),
@@ -36,6 +37,7 @@ rule reduce:
         "results/{blade}/benchmarks/reduce-{directions}.tsv"
     wildcard_constraints:
         blade=one_of(blades.reduced),
+    priority: LONGEST
     params:
         blade=blades.file,
         uses=blades.uses_of_basis,
@@ -99,6 +101,7 @@ rule check_rom:
         checked="results/{blade}/rom-check-{directions}.nc",
     log:
         "results/{blade}/logs/check-rom-{directions}.log",
+    priority: LONGEST
     params:
         settings=blades.file,
         speeds=lambda wildcards: (

@@ -27,6 +27,7 @@ rule check_scene:
         checked=touch("results/{blade}/{scene}/checked"),
     log:
         "results/{blade}/{scene}/logs/check.log",
+    priority: LONGEST
     localrule: True
     params:
         scene=scenes.told,
@@ -68,6 +69,7 @@ rule sweep_block:
         "results/{blade}/{scene}/logs/block-{block}.log",
     benchmark:
         "results/{blade}/{scene}/benchmarks/block-{block}.tsv"
+    priority: LONGEST
     params:
         contents=scenes.contents,
         scene=scenes.told,
@@ -91,6 +93,7 @@ rule sweep:
         "results/{blade}/{scene}/logs/sweep.log",
     benchmark:
         "results/{blade}/{scene}/benchmarks/sweep.tsv"
+    priority: LONGEST
     params:
         contents=scenes.contents,
         scene=scenes.told,

@@ -14,6 +14,7 @@ rule answers:
         "results/{blade}/{scene}/logs/answers.log",
     benchmark:
         "results/{blade}/{scene}/benchmarks/answers.tsv"
+    priority: LONGEST
     params:
         contents=scenes.contents,
     message:
