@@ -6,10 +6,8 @@ Their check is ``simulate.sweeps.over_speeds.check_sweep``.
 from collections.abc import Mapping
 from typing import Any
 
-from geometry.base import Say, UserError, check_settings
+from geometry.base import Say
 from simulate.errors import accuracy
-from simulate.marching.ahead import compile_ahead
-from simulate.scene import Scene
 from simulate.sweeps.dataset import merge, save
 from simulate.sweeps.over_speeds import as_sweep, at_speeds, tell_before
 from workflow.jobs.given import given
@@ -25,16 +23,6 @@ def pilot(
     choice = accuracy.pilot(of, model, check, mesh_error)
     tell_before(choice.scene(of), model, report)
     return choice.plain()
-
-
-def kernels(scenes: Mapping[str, Mapping[str, Any]]) -> None:
-    """Compile the kernel of each of the ``scenes``; what is not, is by its first block."""
-    for name, given_by in scenes.items():
-        try:
-            scene = check_settings(Scene, dict(given_by["scene"]), "")
-            print(f"{name}: {compile_ahead(scene, given_by['across']):.1f} s")
-        except UserError as error:
-            print(f"{name}: not compiled yet: {error}")
 
 
 def block(

@@ -37,27 +37,9 @@ rule check_scene:
         "../scripts/check_scene.py"
 
 
-# While there is no model yet, so that no block waits for it.
-rule kernels:
-    input:
-        code=code_of("kernels"),
-    output:
-        compiled=touch("results/logs/kernels"),
-    log:
-        "results/logs/kernels.log",
-    localrule: True
-    params:
-        scenes=project.kernels,
-    message:
-        "Time integration of the scenes, compiled"
-    script:
-        "../scripts/kernels.py"
-
-
 rule sweep_block:
     input:
         code=code_of("sweep_block"),
-        kernels=ancient("results/logs/kernels"),
         rom=scenes.rom,
         check=ancient(scenes.check),
         checked=scenes.checked,

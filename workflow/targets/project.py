@@ -10,14 +10,13 @@ from tempfile import gettempdir
 from typing import Any, Self
 
 from geometry.base import SettingsError, yaml_file
-from geometry.blade import Blade
 from simulate.scene import Scene
 from simulate.scene.casing import CASING
 from workflow.at_work import not_writable
 from workflow.config import read_config
 from workflow.figures import table
 from workflow.targets.blades import AnyBlade, Blades
-from workflow.targets.inputs import ROOT, OfJob, Told, own_files
+from workflow.targets.inputs import ROOT, OfJob, own_files
 from workflow.targets.scenes import Scenes
 
 CONFIG = "workflow/config.yaml"
@@ -100,19 +99,6 @@ class Project:
         """Interface directions that the blade's scenes need; all directions without a scene."""
         needed = [scene.directions for scene in self.delivered.values() if scene.blade == blade]
         return max(needed, key=len, default="rtz")
-
-    def kernels(self, wildcards: Any) -> Told:
-        """Scenes to sweep, with the rows across the thickness of their blades."""
-        return Told(
-            {
-                name: {
-                    "scene": scene.model_dump(mode="json"),
-                    "across": blade.interface.across if isinstance(blade, Blade) else 1,
-                }
-                for name, scene in self.sweeps.items()
-                for blade in (self.blades.settings[scene.blade],)
-            }
-        )
 
     def sought(self, wildcards: Any) -> dict[str, Any]:
         """The number of modes, and the engine orders, whose critical speeds are told of a blade."""
