@@ -30,7 +30,6 @@ COARSE = {
     "mesh: {element_size_mm: 3.0}": "mesh: {element_size_mm: 10.0}\ninterface: {patches: 8}",
     "count: 80": "count: 14",
     "rounds: 100": "rounds: 30",
-    "steps_per_round: 2048": "steps_per_round: 1024",
 }
 
 
