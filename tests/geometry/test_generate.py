@@ -109,7 +109,7 @@ def test_blades_with_pockets(coarse_blade, tmp_path, pocket):
     assert abs(summary.volume_error) < VOLUME_TOLERANCE
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 def test_a_fillet_far_smaller_than_the_cells_is_taken_with_a_warning(coarse_blade, tmp_path):
     """Of 0.5 mm radius."""
     path = solids.write(tmp_path / "b.step", solids.filleted)

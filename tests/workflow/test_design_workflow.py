@@ -56,7 +56,7 @@ def rows_marched(project) -> list[str]:
     )
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 def test_blocks_rows_and_full_records(tmp_path):
     project = with_design(tmp_path)
     said = project.run()

@@ -41,7 +41,7 @@ def test_files_of_the_page_are_planned(with_files):
     assert with_files.planned("results/my-engine/rom-r.nc")["reduce"] == 1
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 def test_files_of_the_page_give_results(with_files):
     """All but the accuracy, which the coarse mesh cannot reach."""
     sweeps = [f"results/paper/{name}/sweep.nc" for name in NAMES if name in OF_REFERENCE]
