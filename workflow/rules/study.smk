@@ -29,6 +29,7 @@ rule mesh_error:
         "results/{blade}/logs/mesh-error.log",
     benchmark:
         "results/{blade}/benchmarks/mesh-error.tsv"
+    priority: LONGEST
     params:
         contents=blades.contents,
         blade=blades.file,
