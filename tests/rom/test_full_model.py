@@ -12,8 +12,10 @@ from scipy.sparse import csr_matrix, diags, identity
 from fem.assemble import over_speeds
 from fem.cholesky import Cholesky
 from fem.matrices import Prestressed
+from geometry.hats import mean, over_edges
+from geometry.tip import EDGES
 from rom.components import at_speeds
-from rom.full_model import MODES, of_components, solve
+from rom.full_model import BENT, MODES, of_components, solve
 from rom.modes import ModesError, ShiftInvert
 
 
@@ -94,3 +96,13 @@ def test_components_of_some_speeds_and_others_are_one_full_model(full, check_mat
         joined.compliance, full.compliance, atol=1e-9 * full.compliance.max()
     )
     np.testing.assert_allclose(abs(joined.tip), abs(full.tip), atol=1e-6 * abs(full.tip).max())
+
+
+def test_the_second_order_is_along_radial_loads_at_both_edges_without_the_mode(coarse_matrices):
+    """K x = R - M phi (R phi): the static field of each load, less what the mode has of it."""
+    fom, asked = coarse_matrices.at([0.0]), []
+    solve(fom, fom.states(), along=lambda u, x, w: asked.append((x, w)) or 0.0)
+    R = over_edges(EDGES, fom.xi, mean(fom.across)) @ fom.rows("r")
+    for (edge, _), (x, phi) in zip(np.ndindex(2, BENT), asked, strict=True):
+        expected = R[edge] - fom.M @ phi * (R[edge] @ phi)
+        np.testing.assert_allclose(fom.K[0] @ x, expected, atol=1e-9 * abs(R).max())

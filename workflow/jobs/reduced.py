@@ -1,4 +1,4 @@
-"""The reduced model, and its basis."""
+"""The reduced model of a blade, and its basis."""
 
 from fem.matrices import Matrices
 from geometry.base import Say
