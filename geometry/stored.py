@@ -3,10 +3,11 @@
 Each field states its dimensions and unit.
 """
 
+import os
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import MISSING, Field, dataclass, field, fields
-from io import BytesIO
+from io import FileIO
 from pathlib import Path
 from typing import Any, ClassVar, Self, dataclass_transform
 
@@ -15,10 +16,11 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_matrix, tril, triu, vstack
 
-from geometry.base import Provenance, legible, require, require_format, write_whole
+from geometry.base import Provenance, legible, require, require_format, whole
 from geometry.elsewhere import SYMMETRIC
 
 FORMAT = 1
+OVERHEAD = 1 << 14  # bytes of HDF5 for a variable beside its values, at most
 CSR = ("data", "indices", "indptr")  # arrays of a sparse matrix
 
 
@@ -33,8 +35,9 @@ def stored(
     """Field of a ``Stored``: names of its dimensions (none: a scalar), unit, other attributes.
 
     A last dimension that is the last but one with ``_`` behind makes a symmetric matrix. Several
-    ``sparse`` ones, which the first of three dimensions counts, are stored as one, below one
-    another; of symmetric ones the upper triangle. ``default_factory``: as of ``dataclasses.field``.
+    ``sparse`` ones, which the first of three dimensions counts, are stored with one set of indices
+    where they have one pattern, else as one, below one another; of symmetric ones the upper
+    triangle. ``default_factory``: as of ``dataclasses.field``.
     """
     dims = tuple(dimensions.split())
     return field(
@@ -109,16 +112,43 @@ class Stored:
 def write(dataset: xr.Dataset, path: str | Path, encoding: Any = None) -> None:
     """Write NetCDF; ``path`` appears only when it is complete.
 
-    It is made in memory: where a disk is full HDF5 may crash, at the latest when Python ends.
+    Its room is taken first: where a disk is full HDF5 may crash, at the latest when Python ends.
 
     Raises
     ------
     geometry.base.errors.WriteError
         When it cannot be written.
     """
-    image = BytesIO()
-    dataset.to_netcdf(image, engine="h5netcdf", encoding=encoding)
-    write_whole(image.getvalue(), path)
+    room = dataset.nbytes + len(str(dataset.attrs)) + OVERHEAD * (1 + len(dataset.variables))
+    with whole(path) as temporary, _Reserved(temporary, room) as file:
+        dataset.to_netcdf(file, engine="h5netcdf", encoding=encoding)
+
+
+class _Reserved(FileIO):
+    """A new file on a disk that has room for ``room`` bytes of it; as long as what is written."""
+
+    def __init__(self, path: Path, room: int) -> None:
+        super().__init__(path, "w+")
+        os.posix_fallocate(self.fileno(), 0, room)
+        self._length = 0
+
+    def seek(self, offset: int, whence: int = os.SEEK_SET, /) -> int:
+        at_end = whence == os.SEEK_END
+        return super().seek(self._length + offset if at_end else offset, 0 if at_end else whence)
+
+    def write(self, data: Any, /) -> int:
+        count = super().write(data)
+        self._length = max(self._length, self.tell())
+        return count
+
+    def truncate(self, size: int | None = None, /) -> int:
+        self._length = self.tell() if size is None else size
+        return self._length
+
+    def close(self) -> None:
+        if not self.closed:
+            super().truncate(self._length)
+        super().close()
 
 
 @contextmanager
@@ -163,8 +193,27 @@ def _variables(f: Field, value: Any) -> dict[str, tuple]:
     if not f.metadata["sparse"]:
         return {f.name: (f.metadata["dims"], np.asarray(value), f.metadata["attrs"])}
     matrices = value if isinstance(value, tuple) else (value,)
-    A = vstack([triu(B) if f.metadata["symmetric"] else B for B in matrices], format="csr")
-    return {f"{f.name}_{part}": (f"{f.name}_{part}_entry", getattr(A, part)) for part in CSR}
+    symmetric, whole = f.metadata["symmetric"], _numbered(matrices[0])
+    if _same_pattern(matrices):
+        kept = triu(whole, format="csr") if symmetric else whole
+        data = np.concatenate([A.data[kept.data - 1] for A in matrices])
+    else:
+        kept = vstack([triu(A) for A in matrices], format="csr")
+        data = kept.data
+    parts = zip(CSR, (data, kept.indices, kept.indptr), strict=True)
+    return {f"{f.name}_{part}": (f"{f.name}_{part}_entry", values) for part, values in parts}
+
+
+def _same_pattern(matrices: Sequence[csr_matrix]) -> bool:
+    first, *others = matrices
+    return all(
+        np.array_equal(getattr(A, part), getattr(first, part)) for A in others for part in CSR[1:]
+    )
+
+
+def _numbered(A: csr_matrix) -> csr_matrix:
+    """A matrix with the pattern of A; its entries are their numbers, from 1."""
+    return csr_matrix((np.arange(1, 1 + A.nnz, dtype=np.int32), A.indices, A.indptr), A.shape)
 
 
 def _read(dataset: xr.Dataset, f: Field) -> NDArray | float | int | tuple[str, ...]:
@@ -202,36 +251,49 @@ def _read_sparse(dataset: xr.Dataset, f: Field) -> csr_matrix | tuple[csr_matrix
     integers = {indices.dtype.kind, indptr.dtype.kind} == {"i"}
     require(
         (
-            data.dtype == float and integers and [*indptr[-1:]] == [len(data)],
+            data.dtype == float
+            and integers
+            and [*indptr[-1:]] == [len(indices)]
+            and len(data) % max(len(indices), 1) == 0,
             f"{f.name}: no sparse matrix",
         ),
         kind=ValueError,
     )
     columns = dataset.sizes[f.metadata["dims"][-1].removesuffix("_")]
-    A = csr_matrix((data, indices, indptr), (len(indptr) - 1, columns))
-    A.check_format(full_check=True)
+    size = len(indptr) - 1, columns
+    csr_matrix((data[: len(indices)], indices, indptr), size).check_format(full_check=True)
     require(
         (np.isfinite(data).all() and data.any(), f"{f.name}: not finite, or zero"),
         kind=ValueError,
     )
     if not f.metadata["symmetric"]:
-        return A
+        return csr_matrix((data, indices, indptr), size)
+    A = _numbered(csr_matrix((indices, indices, indptr), size))
     below = [A[row : row + columns] for row in range(0, A.shape[0], columns)]
-    matrices = tuple(_symmetric(f.name, upper) for upper in below)
+    each = data.reshape(-1, len(indices))
+    matrices = tuple(A for upper in below for A in _symmetric(f.name, upper, each))
     return matrices if f.type == tuple[csr_matrix, ...] else matrices[0]
 
 
-def _symmetric(name: str, upper: csr_matrix) -> csr_matrix:
-    """Matrix from its upper triangle; its diagonal must be positive."""
+def _symmetric(name: str, upper: csr_matrix, each: NDArray[np.float64]) -> Iterator[csr_matrix]:
+    """Matrices of values (matrices, entries) whose numbers, from 1, an upper triangle holds.
+
+    The diagonal of the first one must be positive.
+    """
+    diagonal = upper.diagonal()
     require(
         (
-            upper.shape[0] == upper.shape[1] and (upper.diagonal() > 0).all(),
+            upper.shape[0] == upper.shape[1]
+            and (diagonal > 0).all()
+            and (each[0, diagonal - 1] > 0).all(),
             f"{name}: not square, or not positive on its diagonal",
         ),
         (not tril(upper, -1).nnz, f"{name}: not an upper triangle"),
         kind=ValueError,
     )
-    return (upper + triu(upper, 1).T).tocsr()
+    full = (upper + triu(upper, 1).T).tocsr()
+    for values in each:
+        yield csr_matrix((values[full.data - 1], full.indices, full.indptr), full.shape)
 
 
 def require_symmetric(name: str, A: NDArray[np.float64]) -> None:

@@ -20,7 +20,7 @@ from pathlib import Path
 from typing import Any
 
 from geometry.base.errors import WriteError
-from geometry.base.provenance import ProvenanceError, anew, bytes_of, fingerprint
+from geometry.base.provenance import ProvenanceError, anew, bytes_of, fingerprint, readable
 
 TEMPORARY = re.compile(r"\..*\.(\d+)-(\d+)-([0-9a-f]{16})(\.\w+)?")
 TRIED = 1 << 16  # bytes written to try a place
@@ -33,6 +33,7 @@ AROUND = {  # before and after the hash, by suffix; other files have no seal
     ".kernel": (b"\nsha256 ", b"\n"),
 }
 DIGITS = 64  # of the hash in a seal
+PART = 1 << 24  # bytes of a file that are in memory at a time
 
 
 @contextmanager
@@ -181,8 +182,9 @@ def seal(path: str | Path) -> None:
     """Append the seal to a complete file, if files with its suffix have one."""
     path = Path(path)
     if path.suffix in AROUND:
+        line = _line(path, path.stat().st_size)
         with path.open("ab") as file:
-            file.write(_line(path.suffix, path.read_bytes()))
+            file.write(line)
 
 
 def sealed(path: str | Path) -> bool:
@@ -203,10 +205,10 @@ def intact(path: str | Path, remedy: str | None = None) -> Path:
     path, remedy = Path(path), remedy or anew(path)
     if path.suffix not in AROUND:
         raise ProvenanceError(f"has no seal: allowed suffixes are {', '.join(AROUND)}", file=path)
-    data, last = _split(path, remedy)
+    size, last = _split(path, remedy)
     if not last:
         raise ProvenanceError(f"an older version made it, or it is cut short; {remedy}", file=path)
-    if last != _line(path.suffix, data):
+    if last != _line(path, size):
         raise ProvenanceError(f"damaged or changed since it was written; {remedy}", file=path)
     return path
 
@@ -229,14 +231,20 @@ def legible(path: str | Path, kind: str, remedy: str | None = None) -> Iterator[
         ) from None
 
 
-def _split(path: Path, remedy: str | None = None) -> tuple[memoryview, bytes]:
-    """Bytes of a file before its seal, and the seal, right or wrong; empty if there is none."""
-    data, (before, after) = memoryview(bytes_of(path, remedy)), AROUND[path.suffix]
-    end = max(len(data) - len(before) - DIGITS - len(after), 0)
-    last = bytes(data[end:])
-    return data[:end], last if last.startswith(before) and last.endswith(after) else b""
+def _split(path: Path, remedy: str | None = None) -> tuple[int, bytes]:
+    """Bytes before the seal of a file, and the seal, right or wrong; empty if there is none."""
+    before, after = AROUND[path.suffix]
+    with readable(path, remedy) as file:
+        size = max(file.seek(0, os.SEEK_END) - len(before) - DIGITS - len(after), 0)
+        file.seek(size)
+        last = file.read()
+    return size, last if last.startswith(before) and last.endswith(after) else b""
 
 
-def _line(suffix: str, data: bytes | memoryview) -> bytes:
-    before, after = AROUND[suffix]
-    return before + hashlib.sha256(data).hexdigest().encode() + after
+def _line(path: Path, size: int) -> bytes:
+    """The seal of the first ``size`` bytes of a file."""
+    (before, after), hashed = AROUND[path.suffix], hashlib.sha256()
+    with readable(path) as file:
+        for start in range(0, size, PART):
+            hashed.update(file.read(min(PART, size - start)))
+    return before + hashed.hexdigest().encode() + after

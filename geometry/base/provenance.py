@@ -7,13 +7,14 @@ version the files of this one.
 import hashlib
 import json
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import asdict, dataclass, replace
 from functools import cache
 from numbers import Integral
 from pathlib import Path
 from types import CodeType
-from typing import Any, Self
+from typing import Any, BinaryIO, Self
 
 from geometry.base.contents import DIGITS, file_hash
 from geometry.base.errors import UserError
@@ -145,8 +146,16 @@ def bytes_of(path: str | Path, remedy: str | None = None) -> bytes:
         When it is missing or cannot be read; the message has the ``remedy``, by default how to
         make it anew.
     """
+    with readable(path, remedy) as file:
+        return file.read()
+
+
+@contextmanager
+def readable(path: str | Path, remedy: str | None = None) -> Iterator[BinaryIO]:
+    """Open a file for what reads its bytes; raises the errors of ``bytes_of``."""
     try:
-        return Path(path).read_bytes()
+        with open(path, "rb") as file:
+            yield file
     except OSError as error:
         reason = "no such file" if not Path(path).exists() else f"cannot be read ({error.strerror})"
         raise ProvenanceError(f"{reason}; {remedy or anew(path)}", file=path) from None
