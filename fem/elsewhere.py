@@ -69,6 +69,7 @@ def read_matrices(blade: MatricesElsewhere, name: str, folder: str | Path) -> Ma
     fom = Matrices(
         M=M,
         K=K,
+        weights=np.eye(len(K)),
         S=S,
         coordinates=deck.coordinates,
         xi=hat_nodes(blade.patches),

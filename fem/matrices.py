@@ -2,6 +2,7 @@
 
 from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Self
 
 import numpy as np
@@ -20,9 +21,19 @@ class Prestressed:
     """Prestressed state at one speed, free DoFs."""
 
     speed: float  # rad/s
-    K: csr_matrix  # N/m
+    # factors and matrices, whose sum is K: several share one pattern
+    terms: tuple[tuple[float, csr_matrix], ...]
     u_static: NDArray[np.float64]  # m
     residual: float  # equilibrium residual over the centrifugal load
+
+    @cached_property
+    def K(self) -> csr_matrix:
+        """K, N/m: the one matrix itself where it stands alone."""
+        (_, first), *more = terms = [term for term in self.terms if term[0]]
+        if not more and terms[0][0] == 1:
+            return first
+        data = sum(factor * A.data for factor, A in terms)
+        return csr_matrix((data, first.indices, first.indptr), first.shape)
 
 
 @frozen
@@ -79,7 +90,9 @@ class Matrices(Constants, Stored):
 
     code = CODE
 
-    K: tuple[csr_matrix, ...] = stored("speed dof dof_", "N m-1", sparse=True)  # one per speed
+    # K at rest first; in all, K at speed i is the sum of weights[i, j] K[j]
+    K: tuple[csr_matrix, ...] = stored("matrix dof dof_", "N m-1 / weight", sparse=True)
+    weights: NDArray[np.float64] = stored("speed matrix", "1, or Omega^2: rad2 s-2")
     speeds: NDArray[np.float64] = stored("speed", "rad s-1")  # ascending
     u_static: NDArray[np.float64] = stored("speed dof", "m", may_be_nan=True)
     # equilibrium residual over the centrifugal load
@@ -99,9 +112,12 @@ class Matrices(Constants, Stored):
     def of(cls, constants: Constants, states: Iterable[Prestressed]) -> Self:
         """Matrices at the speeds of ``states``."""
         states = list(states)
+        K = {id(A): A for state in states for _, A in state.terms}
+        factors = [{id(A): factor for factor, A in state.terms} for state in states]
         return cls(
             **vars(constants),
-            K=tuple(state.K for state in states),
+            K=tuple(K.values()),
+            weights=np.array([[of.get(A, 0.0) for A in K] for of in factors]),
             speeds=np.array([state.speed for state in states]),
             u_static=np.array([state.u_static for state in states]),
             residuals=np.array([state.residual for state in states]),
@@ -109,7 +125,8 @@ class Matrices(Constants, Stored):
 
     def states(self) -> Iterator[Prestressed]:
         """The state at each speed."""
-        return map(Prestressed, self.speeds, self.K, self.u_static, self.residuals)
+        terms = (tuple(zip(of_speed, self.K, strict=True)) for of_speed in self.weights)
+        return map(Prestressed, self.speeds, terms, self.u_static, self.residuals)
 
     def at(self, speeds: ArrayLike) -> "Matrices":
         """The matrices at ``speeds`` (rad/s) only, which must be among their own.
@@ -130,7 +147,7 @@ class Matrices(Constants, Stored):
         kept = distance.argmin(axis=1)
         return replace(
             self,
-            K=tuple(self.K[j] for j in kept),
+            weights=self.weights[kept],
             speeds=self.speeds[kept],
             u_static=self.u_static[kept],
             residuals=self.residuals[kept],
@@ -152,8 +169,9 @@ class Matrices(Constants, Stored):
                 "xi or coordinates: not of three DoFs each",
             ),
             (
-                len(self.K) == len(self.speeds),
-                f"K: {len(self.K)} matrices at {len(self.speeds)} speeds",
+                self.weights.shape == (len(self.speeds), len(self.K)),
+                f"K: {len(self.K)} matrices with weights {self.weights.shape} at "
+                f"{len(self.speeds)} speeds",
             ),
             # of matrices made elsewhere: nan throughout
             *((of.all() or not of.any(), f"{name}: not finite") for name, of in finite.items()),

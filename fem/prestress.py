@@ -75,7 +75,7 @@ class _Equilibria:
         K = self._tangent.matrix()
         if self._cholesky:
             _require_stable(self._cholesky.of(K).negative, speed, last)
-        return Prestressed(speed, K, self.u.x.array[self._free].copy(), residual)
+        return Prestressed(speed, ((1.0, K),), self.u.x.array[self._free].copy(), residual)
 
     @property
     def _last(self) -> float:
@@ -166,16 +166,23 @@ def linear_states(
     """
     v, du = ufl.TestFunction(solid.V), ufl.TrialFunction(solid.V)
     x, cholesky = ufl.SpatialCoordinate(solid.mesh), cholesky or Cholesky()
-    K0 = solid.matrix(ufl.inner(solid.stress(small_strain(du)), small_strain(v)) * solid.dx)
+    elastic = ufl.inner(solid.stress(small_strain(du)), small_strain(v)) * solid.dx
+    at_rest = SymmetricForm(elastic, solid.free)
+    K0 = at_rest.matrix()
     load = fem.assemble_vector(fem.form(solid.spin_load(x, v))).array[solid.free]
     u1 = cholesky.of(K0).solve(load[:, None])[:, 0]
     sigma = solid.stress(small_strain(solid.field(u1)))
     geometric = ufl.inner(sigma, ufl.grad(du).T * ufl.grad(v)) * solid.dx
-    K1 = solid.matrix(geometric - solid.spin_load(du, v))
+    K1 = SymmetricForm(geometric - solid.spin_load(du, v), solid.free, at_rest).matrix()
+    return spun(K0, K1, u1, speeds)
+
+
+def spun(
+    K0: csr_matrix, K1: csr_matrix, u1: NDArray[np.float64], speeds: Iterable[float]
+) -> Iterator[Prestressed]:
+    """States K0 + Omega^2 K1 with the static deflection Omega^2 u1 at ``speeds`` (rad/s)."""
     for speed in speeds:
-        data = K0.data + speed**2 * K1.data
-        K = csr_matrix((data, K0.indices, K0.indptr), K0.shape) if speed else K0
-        yield Prestressed(speed, K, speed**2 * u1, 0.0)
+        yield Prestressed(speed, ((1.0, K0), (speed**2, K1)), speed**2 * u1, 0.0)
 
 
 def mass(solid: Solid) -> csr_matrix:

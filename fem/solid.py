@@ -7,7 +7,7 @@ from fem.petsc import MPI, PETSc
 import gmsh
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csr_matrix
+from scipy.sparse import bsr_matrix, csr_matrix
 
 import ufl
 from dolfinx import fem
@@ -81,13 +81,28 @@ class Solid:
 
 
 class SymmetricForm:
-    """A symmetric bilinear form, to be assembled for several values of its coefficients."""
+    """A symmetric bilinear form, to be assembled for several values of its coefficients.
 
-    def __init__(self, form: ufl.Form, free: NDArray[np.int32]) -> None:
+    ``like``: another form on the same space: the matrices of both then share one set of indices.
+    """
+
+    def __init__(
+        self, form: ufl.Form, free: NDArray[np.int32], like: "SymmetricForm | None" = None
+    ) -> None:
         self._form = fem.form(form)
         self._assembled = fem.create_matrix(self._form)  # pyright: ignore[reportArgumentType]  one form
-        places = self._assembled.to_scipy().astype(np.int64)
-        places.data.flat = np.arange(places.data.size)
+        if like:
+            self._upper, self._lower = like._upper, like._lower
+            return
+        assembled = self._assembled.to_scipy()
+        places = bsr_matrix(
+            (
+                np.arange(assembled.data.size, dtype=np.int32).reshape(assembled.data.shape),
+                assembled.indices,
+                assembled.indptr,
+            ),
+            assembled.shape,
+        )
         # of the entries of the matrix and its transpose, free rows and columns
         self._upper = places.tocsr()[free][:, free]
         self._upper.sort_indices()

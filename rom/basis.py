@@ -16,6 +16,8 @@ from numpy.typing import NDArray
 from scipy.linalg import eigh
 from scipy.sparse import csr_matrix
 
+COLUMNS = 24  # of a product with a matrix of the full model that are in memory at a time
+
 
 @dataclass(frozen=True)
 class Components:
@@ -36,7 +38,7 @@ def paper_basis(at_speeds: list[Components], rank_tolerance: float) -> NDArray[n
     ----------
     at_speeds : components at 0, Omega_m/2, Omega_m
     """
-    columns = _nonzero(_starred(at_speeds) + [c.X for c in at_speeds])
+    columns = np.hstack(_nonzero(_starred(at_speeds) + [c.X for c in at_speeds]))
     U, singular, _ = np.linalg.svd(columns / np.linalg.norm(columns, axis=0), full_matrices=False)
     return np.hstack([at_speeds[0].Phi_R, U[:, singular > rank_tolerance * singular[0]]])
 
@@ -65,15 +67,22 @@ def enriched_basis(
     """
     Phi_R = at_speeds[0].Phi_R
     natural = [c.X - Phi_R @ (S @ c.X) for c in at_speeds]
-    columns = _nonzero(_starred(at_speeds) + natural)
-    Psi = _ritz(_principal(columns, K_rest, rank_tolerance), K_rest, M)
-    return np.hstack([Phi_R, Psi - Phi_R @ (S @ Psi)])  # S Psi = 0 up to round-off
+    Psi = _principal(_nonzero(_starred(at_speeds) + natural), K_rest, rank_tolerance)
+    Psi = _ritz(Psi, K_rest, M)
+    Psi -= Phi_R @ (S @ Psi)  # S Psi = 0 up to round-off
+    return np.hstack([Phi_R, Psi])
 
 
 def project(A: csr_matrix | NDArray[np.float64], T: NDArray[np.float64]) -> NDArray[np.float64]:
     """T^T A T, symmetric to the last bit: a matrix in the coordinates of the basis T."""
-    reduced = T.T @ (A @ T)
+    reduced = _product(A, T)
     return (reduced + reduced.T) / 2
+
+
+def _product(A: csr_matrix | NDArray[np.float64], T: NDArray[np.float64]) -> NDArray[np.float64]:
+    """T^T A T, with A T of a few columns at a time."""
+    parts = (T[:, start : start + COLUMNS] for start in range(0, T.shape[1], COLUMNS))
+    return np.hstack([T.T @ (A @ part) for part in parts])
 
 
 def _starred(at_speeds: list[Components]) -> list[NDArray]:
@@ -82,19 +91,20 @@ def _starred(at_speeds: list[Components]) -> list[NDArray]:
     return [other.Phi_R - rest.Phi_R for other in others]
 
 
-def _nonzero(blocks: list[NDArray]) -> NDArray:
+def _nonzero(blocks: list[NDArray]) -> list[NDArray]:
+    """The blocks without columns of zeros."""
+    return [block[:, block.any(axis=0)] for block in blocks]
+
+
+def _principal(blocks: list[NDArray], K: csr_matrix, rank_tolerance: float) -> NDArray:
+    """K-orthonormal principal directions of all columns, which are first scaled to unit energy."""
     columns = np.hstack(blocks)
-    return columns[:, columns.any(axis=0)]
-
-
-def _principal(columns: NDArray, K: csr_matrix, rank_tolerance: float) -> NDArray:
-    """K-orthonormal principal directions of the columns, which are first scaled to unit energy."""
-    gram = columns.T @ (K @ columns)
+    gram = _product(K, columns)
     scale = np.sqrt(np.diag(gram))
     values, V = eigh(gram / np.outer(scale, scale))
     singular = np.sqrt(np.maximum(values, 0))
     kept = singular > rank_tolerance * singular[-1]
-    return (columns / scale) @ (V[:, kept] / singular[kept])
+    return columns @ (V[:, kept] / singular[kept] / scale[:, None])
 
 
 def _ritz(Psi: NDArray, K: csr_matrix, M: csr_matrix) -> NDArray:

@@ -61,7 +61,8 @@ def reduce(
         )
     )
     # Eq. (1) projected by Eq. (5)
-    M, K = project(fom.M, T), np.stack([project(K, T) for K in fom.K])
+    M = project(fom.M, T)
+    K = np.tensordot(fom.weights, [project(K, T) for K in fom.K], axes=1)
     lowest = eigh(K[0], M, eigvals_only=True, subset_by_index=[0, 0])[0]
     rom = Rom(
         M=M,
@@ -88,8 +89,8 @@ def reduce(
 
 
 def _paper_basis(fom: Matrices, basis: PaperBasis, S: csr_matrix, say: Say) -> NDArray[np.float64]:
-    stiffnesses = counted(fom.K, len(fom.K), "speed", say)
-    each = [fixed_components(K, fom.M, S, basis.fixed_interface_modes) for K in stiffnesses]
+    states = counted(fom.states(), len(fom.speeds), "speed", say)
+    each = [fixed_components(of.K, fom.M, S, basis.fixed_interface_modes) for of in states]
     return paper_basis(each, basis.rank_tolerance)
 
 

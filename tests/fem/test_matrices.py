@@ -21,7 +21,7 @@ def test_assembled_matrices_are_symmetric_to_the_last_bit(coarse_blade, coarse_f
     """Before the file, whose upper triangle would hide it."""
     blade = coarse_blade.model_copy(update={"prestress": prestress})
     matrices = assemble(blade, "coarse", coarse_files.mesh, [400.0])
-    for A in (matrices.M, *matrices.K):
+    for A in (matrices.M, *matrices.K, next(matrices.states()).K):
         assert abs(A - A.T).max() == 0
 
 
@@ -37,6 +37,7 @@ def made() -> Matrices:
     return Matrices(
         M=symmetric(),
         K=(symmetric(), symmetric()),
+        weights=np.array([[1.0, 0.0], [1.0, 1 / 9]]),
         speeds=np.array([0.0, 1 / 3]),
         u_static=rng.normal(size=(2, 12)),
         residuals=np.array([0.0, 1e-17]),
@@ -61,6 +62,25 @@ def test_file_reads_back_bit_for_bit(made, tmp_path):
         before, after = getattr(made, name), getattr(again, name)
         np.testing.assert_array_equal(before, after)
         assert np.asarray(before).dtype == np.asarray(after).dtype, name
+
+
+def test_linear_prestress_is_two_matrices_with_one_set_of_indices(
+    coarse_blade, coarse_mesh, tmp_path
+):
+    """Zeros of K1 where K0 has none keep their places, or the sum would be of others."""
+    blade, speeds = coarse_blade.but(prestress="linear"), [0.0, 100.0, 650.0]
+    fom = assemble(blade, "coarse", coarse_mesh.mesh, speeds)
+    fom.K[1].data[fom.K[1].indptr[5] : fom.K[1].indptr[9]] = 0.0
+    path = tmp_path / "matrices.h5"
+    fom.save(path)
+    with h5py.File(path) as file:
+        entries, numbers = (len(file[f"K_{part}"]) for part in ("indices", "data"))
+    again = Matrices.load(path)
+    assert entries == (fom.K[0].nnz + fom.M.shape[0]) / 2 and numbers == 2 * entries
+    assert np.shares_memory(again.K[0].indices, again.K[1].indices)
+    for speed, state in zip(speeds, again.states(), strict=True):
+        expected = fom.K[0].toarray() + speed**2 * np.triu(fom.K[1].toarray())
+        np.testing.assert_array_equal(np.triu(state.K.toarray()), np.triu(expected))
 
 
 @pytest.mark.parametrize("how", ["other code", "no provenance", "no format"])
@@ -121,7 +141,7 @@ def test_mass_is_cartesian_as_it_is_assembled(coarse_matrices, solid):
 def test_matrices_at_some_of_their_speeds(coarse_matrices):
     some = coarse_matrices.at([650.0, 325.0])
     for here, there in enumerate([3, 1]):
-        assert some.K[here] is coarse_matrices.K[there]
+        assert [*some.states()][here].K is coarse_matrices.K[there]
         np.testing.assert_array_equal(some.u_static[here], coarse_matrices.u_static[there])
         assert some.residuals[here] == coarse_matrices.residuals[there]
     np.testing.assert_allclose(some.speeds, [650, 325], rtol=1e-15)

@@ -46,6 +46,7 @@ class Small:
         return Matrices(
             M=csr_matrix(self.M),
             K=tuple(csr_matrix(self.K(speed)) for speed in speeds),
+            weights=np.eye(len(speeds)),
             speeds=np.asarray(speeds, dtype=float),
             u_static=np.zeros((len(speeds), 20)),
             residuals=np.zeros(len(speeds)),

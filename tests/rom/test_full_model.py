@@ -73,14 +73,14 @@ def test_a_stiffness_is_not_kept_beyond_its_speed(constants):
             made.append(weakref.ref(K))
             gc.collect()
             alive.append(sum(K() is not None for K in made))
-            yield Prestressed(speed, K, np.zeros(N), 0.0)
+            yield Prestressed(speed, ((1.0, K),), np.zeros(N), 0.0)
 
     assert solve(constants, states()).omega.shape == (7, MODES)
     assert max(alive) <= 2  # the new one and the last, whose factor there is
 
 
 def test_a_speed_that_is_not_stable_is_refused(constants):
-    states = [Prestressed(speed, stiffness(speed), np.zeros(N), 0.0) for speed in (0.0, 20.0)]
+    states = [Prestressed(of, ((1.0, stiffness(of)),), np.zeros(N), 0.0) for of in (0.0, 20.0)]
     refused(ModesError, solve, constants, states, match="K is not positive definite")
 
 

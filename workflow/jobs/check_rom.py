@@ -16,6 +16,7 @@ def compare(
     tolerance: float,
     speeds: list[float] | None,
     mesh: str,
+    matrices: str,
     checked: str,
     report: Say,
 ) -> None:
@@ -23,7 +24,7 @@ def compare(
 
     ``between``: the full model at further speeds, for a blade that has a mesh.
     ``settings``: the blade's file; ``speeds``: of its basis, rad/s, None for matrices from
-    elsewhere, which have no others, nor a mesh.
+    elsewhere, which have no others, nor a mesh. ``matrices``: as of ``full_model.solved_at``.
 
     Raises
     ------
@@ -40,7 +41,7 @@ def compare(
 
         shown = ", ".join(f"{speed:.6g}" for speed in more)
         report(f"errors at neighbouring speeds disagree: full model at {shown} rad/s, too")
-        result = check(reduced, full_model.joined(solved_at(more, settings, mesh)))
+        result = check(reduced, full_model.joined(solved_at(more, settings, mesh, matrices)))
     print(f"full model solved at {', '.join(f'{speed:.6g}' for speed in result.speeds)} rad/s")
     print(f"largest frequency error of each mode: {abs(result.error).max(axis=0)}")
     result.require(tolerance)

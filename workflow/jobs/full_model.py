@@ -7,12 +7,13 @@ import numpy as np
 from fem.assemble import over_speeds
 from fem.cholesky import Cholesky
 from fem.matrices import Matrices
+from fem.prestress import spun
 from fem.second_order import SecondOrder
 from fem.solid import read_solid
 from geometry.base import ProvenanceError, Say, anew, counted, silent
 from geometry.blade import Blade
 from rom.components import ComponentModes, at_speeds
-from rom.full_model import MODES, FullModel, of_components, resolved, solve as solve_at
+from rom.full_model import MODES, Along, FullModel, of_components, resolved, solve as solve_at
 from rom.polynomial import basis_speeds
 
 
@@ -49,23 +50,26 @@ def solve_modes(
     geometry.base.provenance.ProvenanceError
         When the matrices have their nodes in another order than the mesh.
     """
-    fom, along = Matrices.load(matrices), None
-    if mesh:
-        settings = Blade.load(blade)
-        solid = read_solid(mesh, settings.material)
-        if not np.array_equal(solid.free_coordinates(), fom.coordinates):
-            raise ProvenanceError(
-                f"its nodes are not as the mesh is read now; {anew(matrices)}", file=matrices
-            )
-        along = SecondOrder(solid, settings.prestress).along
-    each = at_speeds(fom, max(count, MODES), tell)
-    ComponentModes.of(fom, each).save(modes)
-    _save(of_components(fom, each, along), full)
+    fom = Matrices.load(matrices)
+    components = ComponentModes.of(fom, at_speeds(fom, max(count, MODES), tell))
+    # the mesh takes memory: not beside a factor
+    along = _second_order(Blade.load(blade), mesh, fom, matrices) if mesh else None
+    components.save(modes)
+    _save(of_components(fom, components.at_speeds(fom), along), full)
 
 
-def solve(blade: str, mesh: str, speeds: list[float], full: str, tell: Say) -> None:
-    """Modes and compliance at further ``speeds``, rad/s."""
-    _save(solved_at(speeds, blade, mesh, tell), full)
+def _second_order(settings: Blade, mesh: str, fom: Matrices, matrices: str) -> Along:
+    solid = read_solid(mesh, settings.material)
+    if not np.array_equal(solid.free_coordinates(), fom.coordinates):
+        raise ProvenanceError(
+            f"its nodes are not as the mesh is read now; {anew(matrices)}", file=matrices
+        )
+    return SecondOrder(solid, settings.prestress).along
+
+
+def solve(blade: str, mesh: str, matrices: str, speeds: list[float], full: str, tell: Say) -> None:
+    """Modes and compliance at further ``speeds``, rad/s; ``matrices``: as of ``solved_at``."""
+    _save(solved_at(speeds, blade, mesh, matrices, tell), full)
 
 
 def _save(solved: FullModel, full: str) -> None:
@@ -73,10 +77,20 @@ def _save(solved: FullModel, full: str) -> None:
     solved.save(full)
 
 
-def solved_at(speeds: list[float], blade: str, mesh: str, say: Say = silent) -> FullModel:
-    """The full model of the blade in a file at ``speeds``, rad/s."""
+def solved_at(
+    speeds: list[float], blade: str, mesh: str, matrices: str, say: Say = silent
+) -> FullModel:
+    """The full model of the blade in a file at ``speeds``, rad/s.
+
+    ``matrices``: those of prestress `linear`, which hold K at all speeds; else it is assembled.
+    """
     settings, cholesky = Blade.load(blade), Cholesky()
-    solid = read_solid(str(mesh), settings.material)
-    fom, states = over_speeds(settings, Path(blade).stem, mesh, speeds, cholesky, solid)
-    along = SecondOrder(solid, settings.prestress).along
+    if matrices:
+        fom = Matrices.load(matrices)
+        along = _second_order(settings, mesh, fom, matrices)
+        states = spun(*fom.K, fom.u_static[-1] / fom.speeds[-1] ** 2, speeds)
+    else:
+        solid = read_solid(mesh, settings.material)
+        fom, states = over_speeds(settings, Path(blade).stem, mesh, speeds, cholesky, solid)
+        along = SecondOrder(solid, settings.prestress).along
     return solve_at(fom, counted(states, len(speeds), "speed", say), cholesky, along)

@@ -14,6 +14,7 @@ job(
         of.params.tolerance,
         of.params.speeds,
         of.input.mesh,
+        of.input.matrices,
         of.output.checked,
         tell.report,
     ),

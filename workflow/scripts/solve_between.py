@@ -6,5 +6,12 @@ from workflow.jobs.full_model import solve
 
 job(
     snakemake,
-    lambda of, tell: solve(of.params.blade, of.input.mesh, of.params.speeds, of.output.full, tell),
+    lambda of, tell: solve(
+        of.params.blade,
+        of.input.mesh,
+        of.input.matrices,
+        of.params.speeds,
+        of.output.full,
+        tell,
+    ),
 )

@@ -27,7 +27,7 @@ def numbers(blade: Blade, mesh: str, matrices: str) -> dict[str, Any]:
     """
     fom = Matrices.load(matrices)
     fom = fom.at(np.linspace(0, fom.top_speed, 3))
-    omega = np.array([ShiftInvert(K, fom.M).modes(MODES).omega for K in fom.K])
+    omega = np.array([ShiftInvert(at.K, fom.M).modes(MODES).omega for at in fom.states()])
     at_leading = over_edges(LEADING, fom.xi, mean(fom.across))
     (tip,) = at_leading @ (fom.S @ fom.u_static[-1]).reshape(-1, 3)
     return {
