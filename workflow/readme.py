@@ -146,6 +146,8 @@ COMPUTED = (
     ("levels", TRADE, trade_table.by_level),
     ("converges", "results/experiments/interface/table.json", interface.results),
     ("nodes", f"{KEPT}/nodes.csv", kept),
+    ("large", f"{KEPT}/large.csv", kept),
+    ("solvers", f"{KEPT}/solvers.csv", kept),
     ("requirements", TRADE, trade_table.requirements),
     ("rounds", TRADE, trade_table.fewer_rounds),
     ("speeds", TRADE, trade_table.fewer_speeds),

@@ -124,16 +124,21 @@ def _files(folder: Path) -> set[Path]:
     return {name for name in names if not MADE & {*name.parts}}
 
 
+def copied(folder: Path) -> Project:
+    """Copy the sources as they are."""
+    for name in COPIED:
+        source = ROOT / name
+        copy = shutil.copytree if source.is_dir() else shutil.copy2
+        copy(source, folder / name)
+    return Project(folder)
+
+
 def make_project(folder: Path) -> Project:
     """Copy the sources; coarsen the reference blade and shorten the paper's scenes.
 
     Blade `paper` has the shape of `reference`: tests know its numbers, whatever is inferred.
     """
-    for name in COPIED:
-        source = ROOT / name
-        copy = shutil.copytree if source.is_dir() else shutil.copy2
-        copy(source, folder / name)
-    project = Project(folder)
+    project = copied(folder)
     project.edit("workflow/blades/reference.yaml", _coarsen)
     project.edit("workflow/blades/paper.yaml", _of_the_reference)
     project.edit("workflow/scenes/paper.yaml", _shorten)

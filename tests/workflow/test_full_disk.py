@@ -177,7 +177,7 @@ def test_a_job_on_a_full_disk_fails_in_one_line_and_runs_when_there_is_room(
     shutil.copytree(project.folder, tmp_path / "copy", symlinks=True)
     full = Project(tmp_path / "copy")
     blade = full.folder / BLADE
-    for name in ("blade.msh", "rom-r.nc", "full-model.nc"):
+    for name in ("blade.msh", "matrices.h5", "rom-r.nc", "full-model.nc", "full-between.nc"):
         shutil.copy2(blade / name, disk.folder / name)
     right = RomCheck.load(blade / "rom-check-r.nc")
     shutil.rmtree(blade)

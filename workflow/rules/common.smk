@@ -12,6 +12,7 @@ from geometry.base import WARNING, SettingsError
 from geometry.blade import SOURCES
 from workflow.at_work import ANOTHER, hold
 from workflow.figures import table
+from workflow.model_cost import memory_of_machine
 from workflow.targets import paper
 from workflow.targets.experiments import Experiments
 from workflow.targets.inputs import code_of, one_of, own_files
@@ -30,6 +31,9 @@ try:
     FIGURES = project.figures
 except SettingsError as error:
     raise WorkflowError(str(error)) from None
+# Jobs beside one another on this machine do not need more than it has, or --resources mem_mb=... allows.
+if workflow.resource_settings.nodes is None and "mem_mb" not in workflow.global_resources:
+    workflow.register_resource("mem_mb", int(memory_of_machine() / 1e6))
 blades, scenes = project.blades, project.scenes
 experiments = Experiments(blades, scenes.most_blocks)
 

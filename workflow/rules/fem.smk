@@ -36,6 +36,8 @@ rule assemble:
     wildcard_constraints:
         blade=one_of(blades.meshed),
     priority: LONGEST
+    resources:
+        mem_mb=blades.memory("assemble"),
     params:
         blade=blades.file,
         uses=blades.uses(*FEM_USES),

@@ -13,6 +13,8 @@ rule modes:
     wildcard_constraints:
         blade=one_of(blades.reduced),
     priority: LONGEST
+    resources:
+        mem_mb=blades.memory("modes"),
     params:
         blade=blades.file,
         uses=blades.uses("material", "prestress"),
@@ -38,6 +40,8 @@ rule reduce:
     wildcard_constraints:
         blade=one_of(blades.reduced),
     priority: LONGEST
+    resources:
+        mem_mb=blades.memory("reduce"),
     params:
         blade=blades.file,
         uses=blades.uses_of_basis,
@@ -52,6 +56,7 @@ rule solve_between:
     input:
         code=code_of("solve_between"),
         mesh="results/{blade}/blade.msh",
+        matrices=blades.linear,
     output:
         full="results/{blade}/full-between.nc",
     log:
@@ -60,6 +65,8 @@ rule solve_between:
         "results/{blade}/benchmarks/full-between.tsv"
     wildcard_constraints:
         blade=one_of(blades.meshed),
+    resources:
+        mem_mb=blades.memory("solve_between"),
     params:
         blade=blades.file,
         uses=blades.uses(*FEM_USES),
@@ -93,6 +100,7 @@ rule take_rom:
 rule check_rom:
     input:
         mesh=blades.mesh,
+        matrices=blades.linear,
         code=code_of("check_rom"),
         full="results/{blade}/full-model.nc",
         between=blades.between,

@@ -6,10 +6,13 @@ from fem.at_rest import build_mesh_at_rest
 from geometry.blade import Blade
 from workflow.jobs.mesh import report_mesh
 
-job(
-    snakemake,
-    lambda of, tell: report_mesh(
-        build_mesh_at_rest(Blade.load(of.params.blade), of.output.mesh, of.input.source or None),
-        tell.report,
-    ),
-)
+
+def build(of, tell):
+    """Build it, and tell what its model costs."""
+    blade = Blade.load(of.params.blade)
+    report_mesh(
+        build_mesh_at_rest(blade, of.output.mesh, of.input.source or None), blade, tell.report
+    )
+
+
+job(snakemake, build)

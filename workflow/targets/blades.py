@@ -1,10 +1,11 @@
 """Blades of a project: their settings and files, and what jobs read of them."""
 
 import os
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain
+from math import ceil
 from pathlib import Path
 from typing import Any, Self
 
@@ -12,9 +13,11 @@ from geometry.base import SettingsError, hashes, printable, yaml_file
 from geometry.blade import Blade
 from geometry.elsewhere import ELSEWHERE, MatricesElsewhere, ModelElsewhere, read_blade
 from rom.polynomial import basis_speeds, speeds_between
+from workflow.model_cost import costs, nodes_of
 from workflow.targets.inputs import OfJob, Once, Told
 
 FOLDER = "workflow/blades"
+UNKNOWN = 4000  # MB, for a model of up to 50,000 nodes
 
 type AnyBlade = Blade | MatricesElsewhere | ModelElsewhere
 
@@ -112,6 +115,25 @@ class Blades:
         """The full model at these speeds, where the blade has a mesh."""
         blade = wildcards.blade
         return f"results/{blade}/full-between.nc" if blade in self.meshed else []
+
+    def memory(self, job: str) -> Callable[[Any, Any, int], int]:
+        """Memory, MB, that a ``job`` of the blade needs, of the rules from the mesh to the model.
+
+        More with each ``attempt``. Of matrices from elsewhere it is not known: ``UNKNOWN``.
+        """
+
+        def needed(wildcards: Any, input: Any, attempt: int) -> int:
+            if wildcards.blade not in self.meshed:
+                return attempt * UNKNOWN
+            nodes = nodes_of(f"results/{wildcards.blade}/blade.msh")
+            return attempt * ceil(costs(self.of(wildcards), nodes)[job].memory / 1e6)
+
+        return needed
+
+    def linear(self, wildcards: Any) -> list[str] | str:
+        """The blade's matrices, where they hold K at all speeds: those of prestress `linear`."""
+        is_linear = getattr(self.of(wildcards), "prestress", "") == "linear"
+        return f"results/{wildcards.blade}/matrices.h5" if is_linear else []
 
     def mesh(self, wildcards: Any) -> list[str] | str:
         """The blade's mesh, where it has one."""
