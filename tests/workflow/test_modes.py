@@ -10,7 +10,7 @@ from refused import refused
 from geometry.base import ProvenanceError, silent
 from rom.components import ComponentModes
 from rom.full_model import MODES, FullModel
-from workflow.jobs.full_model import solve_modes
+from workflow.jobs.full_model import assembled, solve_modes, solved_at
 
 
 @pytest.fixture
@@ -41,3 +41,20 @@ def test_matrices_of_nodes_in_another_order_are_refused(given, tmp_path, coarse_
     modes, full = str(tmp_path / "modes.h5"), str(tmp_path / "full-model.nc")
     error = refused(ProvenanceError, solve_modes, blade, matrices, mesh, 4, modes, full, silent)
     assert error.file == matrices and not (tmp_path / "modes.h5").exists()
+
+
+def test_matrices_of_linear_prestress_give_the_full_model_at_other_speeds(
+    tmp_path, coarse_blade, coarse_mesh
+):
+    """As those that are assembled there, with the second order of vibrations."""
+    settings = coarse_blade.but(prestress="linear")
+    blade, matrices = tmp_path / "coarse.yaml", tmp_path / "matrices.h5"
+    blade.write_text(yaml.safe_dump(settings.model_dump(mode="json", exclude_unset=True)))
+    assembled(settings, "coarse", coarse_mesh.mesh).save(matrices)
+    mesh, speeds = str(coarse_mesh.mesh), [123.0, 456.0]
+    given, anew = (solved_at(speeds, str(blade), mesh, of) for of in (str(matrices), ""))
+    for name in ("speeds", "omega", "compliance", "second_order"):
+        expected = getattr(anew, name)
+        np.testing.assert_allclose(
+            getattr(given, name), expected, rtol=0, atol=1e-8 * abs(expected).max()
+        )
