@@ -193,9 +193,9 @@ def _variables(f: Field, value: Any) -> dict[str, tuple]:
     if not f.metadata["sparse"]:
         return {f.name: (f.metadata["dims"], np.asarray(value), f.metadata["attrs"])}
     matrices = value if isinstance(value, tuple) else (value,)
-    symmetric, whole = f.metadata["symmetric"], _numbered(matrices[0])
+    symmetric, numbered = f.metadata["symmetric"], _numbered(matrices[0])
     if _same_pattern(matrices):
-        kept = triu(whole, format="csr") if symmetric else whole
+        kept = triu(numbered, format="csr") if symmetric else numbered
         data = np.concatenate([A.data[kept.data - 1] for A in matrices])
     else:
         kept = vstack([triu(A) for A in matrices], format="csr")

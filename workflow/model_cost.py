@@ -6,12 +6,11 @@ elements through its thickness takes longer, and more memory. So do further spee
 needs them, and equilibria that Newton finds slowly.
 """
 
-import os
 import re
 from dataclasses import dataclass
 from pathlib import Path
 
-from geometry.base import MeshError, Say, duration, require
+from geometry.base import MeshError, Say, duration, memory_of_machine, require
 from geometry.blade import Blade
 
 SCALE = 1e5  # nodes: of each law the number there, and its exponent
@@ -66,11 +65,6 @@ def costs(blade: Blade, nodes: int) -> dict[str, Cost]:
     return {job: Cost(START + seconds, EMPTY + more) for job, (seconds, more) in each.items()}
 
 
-def memory_of_machine() -> float:
-    """Bytes."""
-    return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
-
-
 def require_room(blade: Blade, nodes: int, say: Say) -> None:
     """Tell the cost of the model of a mesh of so many ``nodes``.
 
@@ -87,10 +81,9 @@ def require_room(blade: Blade, nodes: int, say: Say) -> None:
         f"from this mesh to the checked model some {duration(seconds)} on one core, "
         f"{most / 1e9:.2g} GB of memory at most ({job}){more}"
     )
-    few = nodes * room / most
-    finer = (nodes / few) ** (1 / NODES_OVER_SIZE)
+    few, coarser = nodes * room / most, (most / room) ** (1 / NODES_OVER_SIZE)
     remedy = (
-        f"take mesh.element_size_mm above {blade.mesh.element_size_mm * finer:.2g}"
+        f"take mesh.element_size_mm above {blade.mesh.element_size_mm * coarser:.2g}"
         if blade.mesh
         else "export a coarser mesh"
     )

@@ -31,7 +31,16 @@ from geometry.base.files import (
     write_or_keep,
     write_whole,
 )
-from geometry.base.progress import WARNING, Say, bar, counted, duration, remaining, silent
+from geometry.base.progress import (
+    WARNING,
+    Say,
+    bar,
+    counted,
+    duration,
+    memory_of_machine,
+    remaining,
+    silent,
+)
 from geometry.base.provenance import (
     ROOT,
     Provenance,

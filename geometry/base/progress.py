@@ -1,5 +1,6 @@
-"""Progress of work: the part that is done, and the time that is left."""
+"""Progress of work: the part that is done, and the time that is left; and the machine's memory."""
 
+import os
 import re
 from collections.abc import Callable, Iterable, Iterator
 from time import perf_counter
@@ -21,6 +22,11 @@ def duration(seconds: float) -> str:
     size, unit = next(entry for entry in UNITS if seconds >= entry[0] or entry == UNITS[-1])
     number = seconds / size
     return f"{number:.0f} {unit}" if number >= 10 else f"{number:.2g} {unit}"
+
+
+def memory_of_machine() -> float:
+    """Memory of this machine, bytes."""
+    return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
 
 
 def remaining(done: int, total: int, elapsed: float) -> str:

@@ -7,13 +7,12 @@ with less contact than usual, it is off by a factor of two or three; the time le
 the sweep goes on.
 """
 
-import os
 from dataclasses import dataclass
 from math import ceil
 
 import numpy as np
 
-from geometry.base import WARNING, duration, failed
+from geometry.base import WARNING, duration, failed, memory_of_machine
 from geometry.tip import JUDGED
 from rom.model import Rom
 from simulate.contact.places import mean_footprint, rods_in_footprint
@@ -57,7 +56,7 @@ class Cost:
             f"{self.all_steps:.2g} steps, some {duration(self.seconds)} on one core, "
             f"{self.memory / 1e9:.2g} GB of memory"
         )
-        memory = memory or os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+        memory = memory or memory_of_machine()
         much = failed(
             (
                 self.seconds <= LONG,

@@ -8,11 +8,10 @@ from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
 
-from geometry.base import WARNING, SettingsError
+from geometry.base import WARNING, SettingsError, memory_of_machine
 from geometry.blade import SOURCES
 from workflow.at_work import ANOTHER, hold
 from workflow.figures import table
-from workflow.model_cost import memory_of_machine
 from workflow.targets import paper
 from workflow.targets.experiments import Experiments
 from workflow.targets.inputs import code_of, one_of, own_files
