@@ -20,6 +20,7 @@ from geometry.base import (
     numbers,
     require,
     shifted,
+    unquoted,
 )
 from geometry.elsewhere import OFF_LINE, SYMMETRIC, FullMatrices, MatricesElsewhere, tip_checks
 from geometry.hats import hat_nodes
@@ -293,7 +294,7 @@ def _symmetric(path: Path, letter: str, deck: Deck) -> csr_matrix:
 
 def _table(path: Path, columns: Sequence[str]) -> NDArray[np.float64]:
     """Numbers (rows, columns) of a CSV file without a header; lines with # are comments."""
-    with about(path, ElsewhereError):
+    with about(path, ElsewhereError), unquoted(path):
         rows = [numbers(cells, columns, line) for line, cells in csv_rows(path)]
     require(
         (len(rows) > 0, f"has no row of {', '.join(columns)}"),

@@ -26,6 +26,7 @@ from dolfinx import fem
 from dolfinx.plot import vtk_mesh
 
 from fem.fatigue import von_mises
+from fem.forms import compiled_at
 from fem.solid import Solid, green_lagrange, read_solid, small_strain
 from geometry.base import SettingsError, require, write_whole
 from geometry.blade import Blade, Stress as Asked
@@ -167,7 +168,7 @@ def _strain_and_stress(
 
 def _expression(solid: Solid, tensor: ufl.core.expr.Expr) -> fem.Expression:
     """``tensor`` at the nodes of a cell, compiled."""
-    return fem.Expression(tensor, solid.V.element.interpolation_points)
+    return compiled_at(tensor, solid.V.element.interpolation_points)
 
 
 def _at_nodes(

@@ -13,6 +13,7 @@ from dolfinx import fem
 from dolfinx.fem.petsc import NonlinearProblem
 
 from fem.cholesky import Cholesky
+from fem.forms import compiled
 from fem.matrices import Prestressed
 from fem.solid import Solid, SymmetricForm, green_lagrange, small_strain
 from geometry.base import RPM, UserError, require
@@ -54,17 +55,18 @@ class _Equilibria:
         self.u, self.Omega = fem.Function(solid.V), fem.Constant(solid.mesh, 0.0)
         residual, tangent = equilibrium_forms(solid, self.Omega, self.u, v, du)
         self._free, self._cholesky = solid.free, cholesky
-        self._residual, self._tangent = fem.form(residual), SymmetricForm(tangent, solid.free)
+        self._residual, self._tangent = compiled(residual), SymmetricForm(tangent, solid.free)
         self._problem = NonlinearProblem(
-            residual,
+            self._residual,
             self.u,
-            J=tangent,
+            J=self._tangent.form,
             bcs=[solid.clamp],
             petsc_options_prefix="equilibrium_",
             petsc_options=DIRECT | NEWTON,
         )
         # per Omega^2, on the undeformed blade
-        load = fem.assemble_vector(fem.form(solid.spin_load(ufl.SpatialCoordinate(solid.mesh), v)))
+        x = ufl.SpatialCoordinate(solid.mesh)
+        load = fem.assemble_vector(compiled(solid.spin_load(x, v)))
         self._load = float(np.linalg.norm(load.array[solid.free]))
         self._equilibria: list[tuple[float, NDArray]] = []  # Omega, deflection
 
@@ -169,7 +171,7 @@ def linear_states(
     elastic = ufl.inner(solid.stress(small_strain(du)), small_strain(v)) * solid.dx
     at_rest = SymmetricForm(elastic, solid.free)
     K0 = at_rest.matrix()
-    load = fem.assemble_vector(fem.form(solid.spin_load(x, v))).array[solid.free]
+    load = fem.assemble_vector(compiled(solid.spin_load(x, v))).array[solid.free]
     u1 = cholesky.of(K0).solve(load[:, None])[:, 0]
     sigma = solid.stress(small_strain(solid.field(u1)))
     geometric = ufl.inner(sigma, ufl.grad(du).T * ufl.grad(v)) * solid.dx

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 import ufl
 from dolfinx import fem
 
+from fem.forms import compiled
 from fem.solid import Solid
 
 
@@ -39,7 +40,7 @@ class SecondOrder:
 
         third = ufl.inner(solid.stress(product(w, w)), strain(x))
         third += 2 * ufl.inner(solid.stress(product(w, x)), strain(w))
-        self._form = fem.form(-third / 2 * solid.dx)
+        self._form = compiled(-third / 2 * solid.dx)
 
     def along(
         self, u: NDArray[np.float64], x: NDArray[np.float64], w: NDArray[np.float64]

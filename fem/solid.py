@@ -14,6 +14,7 @@ from dolfinx import fem
 from dolfinx.io.gmsh import model_to_mesh
 from dolfinx.mesh import Mesh
 
+from fem.forms import compiled
 from geometry.base import known
 from geometry.blade import Material
 from geometry.jacobians import DEGREE
@@ -89,8 +90,8 @@ class SymmetricForm:
     def __init__(
         self, form: ufl.Form, free: NDArray[np.int32], like: "SymmetricForm | None" = None
     ) -> None:
-        self._form = fem.form(form)
-        self._assembled = fem.create_matrix(self._form)  # pyright: ignore[reportArgumentType]  one form
+        self.form = compiled(form)
+        self._assembled = fem.create_matrix(self.form)  # pyright: ignore[reportArgumentType]  one form
         if like:
             self._upper, self._lower = like._upper, like._lower
             return
@@ -111,7 +112,7 @@ class SymmetricForm:
     def matrix(self) -> csr_matrix:
         """Assemble the form, free rows and columns only; symmetric to the last bit."""
         self._assembled.data[:] = 0.0
-        fem.assemble_matrix(self._assembled, self._form)
+        fem.assemble_matrix(self._assembled, self.form)
         values = self._assembled.data
         data = (values[self._upper.data] + values[self._lower.data]) / 2
         return csr_matrix((data, self._upper.indices, self._upper.indptr), self._upper.shape)

@@ -24,7 +24,7 @@ from geometry.shape import Shape, faces_of, radii, sampled
 READ = (".step", ".stp", ".brep")
 SAME = 1e-5  # m, distance of equal vertices in the file and in gmsh; tolerance of coarse CAD files
 ROUND_OFF = 1e-6  # m, for a face exactly at the radius
-ENTITY = re.compile(r"#(\d+)\s*=\s*([^;]*);")
+ENTITY = re.compile(r"#(\d+)\s*=\s*(.*)", re.DOTALL)
 REFERENCE = re.compile(r"#(\d+)")
 NUMBERS = re.compile(r"CARTESIAN_POINT\s*\(\s*'[^']*'\s*,\s*\(([^)]*)\)")
 # number of leading references of an entity that are its boundary; then comes its geometry
@@ -54,7 +54,9 @@ class StepFile:
                 "has no end (END-ISO-10303-21;): it was cut short, export it anew",
             ),
         )
-        self._entities = dict(ENTITY.findall(re.sub(r"\s*\n\s*", "", text)))
+        statements = "".join(map(str.strip, text.split("\n"))).split(";")[:-1]
+        found = filter(None, map(ENTITY.search, statements))
+        self._entities = {number: body for number, body in map(re.Match.groups, found)}
 
     @property
     def units(self) -> set[str]:

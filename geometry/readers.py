@@ -18,7 +18,8 @@ from geometry.file_mesh import FileMesh, Physics, as_tetrahedra, require_all
 from geometry.nastran import read_bulk
 from geometry.split import NODES, Block, upright
 
-SECTION = re.compile(rb"^\$(Nodes|Elements)[ \r]*\n(.*?)^\$End\1", re.MULTILINE | re.DOTALL)
+SECTION = re.compile(rb"^\$(End)?(Nodes|Elements)\b", re.MULTILINE)
+SECTIONS = b"Elements", b"Nodes"
 NAMES = re.compile(rb'^[ \t]*(\d) +(\d+) +"([^"]*)"', re.MULTILINE)  # dimension, number, name
 ASCII = re.compile(rb"^\$MeshFormat\s+\S+\s+0\s", re.MULTILINE)
 ANEW = {
@@ -36,10 +37,12 @@ def _read_msh(path: Path) -> FileMesh:
     data = path.read_bytes()
     if data.lstrip().startswith(b"*"):
         return read_deck(path)
-    sections = SECTION.findall(data)
+    marks = [*SECTION.finditer(data)]
+    named = [(mark[2], bool(mark[1])) for mark in marks]
     require(
         (
-            sorted(name for name, _ in sections) == [b"Elements", b"Nodes"],
+            sorted(named) == [(name, end) for name in SECTIONS for end in (False, True)]
+            and named[1::2] == [(name, True) for name, _ in named[::2]],
             f"needs one $Nodes and one $Elements, both with their end: {ANEW['.msh']}",
         ),
         (
@@ -51,7 +54,8 @@ def _read_msh(path: Path) -> FileMesh:
     for block in mesh.cells:
         if block.type in SERENDIPITY:
             block.data = _gmsh_to_meshio_order(SERENDIPITY[block.type], block.data)
-    head, *lines = dict(sections)[b"Elements"].strip().splitlines()
+    first, last = (mark for mark in marks if mark[2] == b"Elements")
+    head, *lines = data[first.end() : last.start()].strip().splitlines()
     if ASCII.search(data):
         _require_all(mesh, len(lines) if len(head.split()) == 1 else int(head.split()[1]))
     _name(mesh, data.partition(b"$EndPhysicalNames")[0])

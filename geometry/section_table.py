@@ -16,14 +16,14 @@ from numpy.typing import NDArray
 from scipy.interpolate import Akima1DInterpolator
 from scipy.spatial.distance import pdist, squareform
 
-from geometry.base import MeshError, MeshWarning, csv_rows, numbers, require, shown
+from geometry.base import MeshError, MeshWarning, csv_rows, numbers, require, shown, unquoted
 from geometry.blade import SectionTable
 from geometry.frame import to_blade
 from geometry.outline import check_line, check_outline, enclosed
 
 HEADER = ["section", "x", "y", "z"]
 THINNEST = 5e-3  # of the chord; tips of fans have 2e-2
-FEWEST_POINTS = 16  # of a section
+FEWEST_POINTS, MOST_POINTS = 16, 4000  # of a section
 STATIONS = 17  # of a side between its cuts; twice as many change the volume by 1e-4
 APART = 1e-4  # m, least radial distance between two sections
 DENSE = 4000  # points of a side from which the stations are interpolated
@@ -60,7 +60,8 @@ def read_sections(table: SectionTable, path: str | Path) -> list[CutSection]:
     MeshError
         When a line cannot be read, a section has too few points or crosses itself or the next.
     """
-    outlines = _read(path)
+    with unquoted(path):
+        outlines = _read(path)
     placed = to_blade(np.vstack(list(outlines.values())), table)
     ends = np.cumsum([len(points) for points in outlines.values()])[:-1]
     cut = [
@@ -137,8 +138,9 @@ def _read(path: str | Path) -> dict[str, NDArray[np.float64]]:
         (len(outlines) > 1, f"{len(outlines)} section(s); needs two or more, hub to tip"),
         *(
             (
-                len(points) >= FEWEST_POINTS,
-                f"section {name} has {len(points)} points; needs {FEWEST_POINTS} or more",
+                FEWEST_POINTS <= len(points) <= MOST_POINTS,
+                f"section {name} has {len(points)} points; needs {FEWEST_POINTS} or more, and "
+                f"{MOST_POINTS} at most",
             )
             for name, points in outlines.items()
         ),

@@ -11,16 +11,26 @@ from io import FileIO
 from pathlib import Path
 from typing import Any, ClassVar, Self, dataclass_transform
 
+import h5py
 import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_matrix, tril, triu, vstack
 
-from geometry.base import Provenance, legible, require, require_format, whole
+from geometry.base import (
+    Provenance,
+    legible,
+    memory_of_machine,
+    require,
+    require_format,
+    whole,
+)
 from geometry.elsewhere import SYMMETRIC
 
 FORMAT = 1
 OVERHEAD = 1 << 14  # bytes of HDF5 for a variable beside its values, at most
+DEFLATED = 1100  # bytes of values for one of their file, at most, compressed as zlib does
+UNWRITTEN = 1 << 26  # bytes of values that a file may declare of any size, as xarray does of axes
 CSR = ("data", "indices", "indptr")  # arrays of a sparse matrix
 
 
@@ -160,10 +170,33 @@ def read(path: str | Path, kind: str, remedy: str | None = None) -> Iterator[xr.
     ProvenanceError
         When the file is missing or damaged, or lacks data that the block reads.
     """
-    with (
-        legible(path, kind, remedy) as whole_file,
-        xr.open_dataset(whole_file, engine="h5netcdf") as dataset,
-    ):
+    with legible(path, kind, remedy) as whole_file, netcdf(whole_file) as dataset:
+        yield dataset
+
+
+@contextmanager
+def netcdf(path: str | Path) -> Iterator[xr.Dataset]:
+    """Open any file of NetCDF 4 whose values fit into this machine and into the file.
+
+    Raises
+    ------
+    OSError, ValueError
+        When it is none, or declares more values: a file of two kilobytes may declare terabytes,
+        which are zeros where they are read.
+    """
+    sizes = [0]
+    with h5py.File(path, "r") as file:
+        file.visititems(lambda _, of: sizes.append(getattr(of, "nbytes", 0)))
+    size, most = sum(sizes), UNWRITTEN + DEFLATED * os.path.getsize(path)
+    require(
+        (size <= most, f"declares {size:.3g} bytes of values, allowed {most:.3g} in its size"),
+        (
+            size <= (room := memory_of_machine()),
+            f"declares {size:.3g} bytes of values, this machine has {room:.3g} of memory",
+        ),
+        kind=ValueError,
+    )
+    with xr.open_dataset(path, engine="h5netcdf") as dataset:
         yield dataset
 
 

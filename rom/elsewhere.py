@@ -12,13 +12,13 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
 from scipy.linalg import eigh
 
 from geometry.base import Fault, Provenance, code_hash, failed, file_hash, refuse, require, sealed
 from geometry.blade import EnrichedBasis, settings_of_basis
 from geometry.elsewhere import OFF_LINE, SYMMETRIC, tip_checks
+from geometry.stored import netcdf
 from geometry.tip import cartesian
 from rom.model import CODE, DIRECTIONS, Rom, RomError
 
@@ -82,7 +82,7 @@ def _elsewhere(path: Path) -> bool:
     if path.suffix != ".nc" or not path.is_file() or sealed(path):
         return False
     try:
-        with xr.open_dataset(path, engine="h5netcdf") as file:
+        with netcdf(path) as file:
             return "M" in file.variables and not {"provenance", "format"} & set(file.attrs)
     except (OSError, KeyError, TypeError, ValueError):
         return False
@@ -113,7 +113,7 @@ def described(rom: Rom) -> list[str]:
 def _values(path: str | Path) -> dict[str, Any]:
     dims = {f.name: f.metadata["dims"] for f in fields(Rom) if f.metadata} | {"power": ("power",)}
     try:
-        with xr.open_dataset(path, engine="h5netcdf") as file:
+        with netcdf(path) as file:
             variables = {name: file[name].values for name in dims if name in file.variables}
     except (OSError, ValueError) as error:
         raise RomError(

@@ -20,8 +20,10 @@ from geometry.base.errors import (
 )
 from geometry.base.files import (
     AROUND,
+    alone,
     intact,
     legible,
+    lock_of,
     read_json,
     require_writable,
     seal,
@@ -48,6 +50,7 @@ from geometry.base.provenance import (
     anew,
     code_hash,
     fingerprint,
+    parsed_json,
     require_format,
     version,
 )
@@ -61,6 +64,14 @@ from geometry.base.settings import (
 )
 from geometry.base.sources import imported_by, sources_of
 from geometry.base.strict_yaml import MOST_CHARACTERS, MOST_VALUES, parse
-from geometry.base.text_file import csv_rows, csv_text, number, numbers, read_text, require_file
+from geometry.base.text_file import (
+    csv_rows,
+    csv_text,
+    number,
+    numbers,
+    read_text,
+    require_file,
+    unquoted,
+)
 from geometry.base.units import FORMER, RPM, converted, in_rpm, shifted
 from geometry.base.yaml_file import A_NAME, MOST_BASES, NAME, merged, names, read_mapping

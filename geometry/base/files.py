@@ -14,17 +14,26 @@ import platform
 import re
 import tempfile
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
+from fcntl import LOCK_EX, flock
 from functools import cache
 from pathlib import Path
 from typing import Any
 
-from geometry.base.errors import WriteError
-from geometry.base.provenance import ProvenanceError, anew, bytes_of, fingerprint, readable
+from geometry.base.errors import WriteError, require
+from geometry.base.provenance import (
+    ProvenanceError,
+    anew,
+    bytes_of,
+    fingerprint,
+    parsed_json,
+    readable,
+)
 
 TEMPORARY = re.compile(r"\..*\.(\d+)-(\d+)-([0-9a-f]{16})(\.\w+)?")
 TRIED = 1 << 16  # bytes written to try a place
 HASH = "sha256"  # key of a JSON file: hash of all others
+LIST = "list"  # the only other key where the values are a list
 AROUND = {  # before and after the hash, by suffix; other files have no seal
     ".h5": (b"\nsha256 ", b"\n"),
     ".nc": (b"\nsha256 ", b"\n"),
@@ -54,6 +63,28 @@ def whole(path: str | Path) -> Iterator[Path]:
         yield temporary
         seal(temporary)
         os.replace(temporary, path)
+
+
+def lock_of(path: Path) -> Path:
+    """The file of the lock of ``alone``."""
+    return path.with_name(f".{path.name}.lock")
+
+
+@contextmanager
+def alone(path: Path) -> Iterator[bool]:
+    """Let one process at a time into the block, which makes what is at ``path``.
+
+    Yields whether it is alone: where the folder takes no lock all are let in. The lock ends with
+    the process, also when it is killed.
+    """
+    with ExitStack() as held:
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            flock(held.enter_context(lock_of(path).open("w")), LOCK_EX)
+            locked = True
+        except OSError:
+            locked = False
+        yield locked
 
 
 def write_whole(content: str | bytes, path: str | Path) -> None:
@@ -151,31 +182,38 @@ def _machine() -> str:
 
 
 def write_json(values: Any, path: str | Path) -> None:
-    """Write plain values as JSON, with ``whole``; nan and inf become null.
-
-    A mapping gets the hash of its values.
-    """
+    """Write plain values as JSON, with their hash and ``whole``; nan and inf become null."""
     values = json.loads(json.dumps(values), parse_constant=lambda nan_or_infinity: None)
-    if isinstance(values, dict):
-        values[HASH] = fingerprint(values)
+    values = values if isinstance(values, dict) else {LIST: values}
+    values[HASH] = fingerprint(values)
     write_whole(json.dumps(values, indent=1) + "\n", path)
 
 
 def read_json(path: str | Path) -> Any:
-    """Read a JSON file.
+    """Read a JSON file of ``write_json``.
 
     Raises
     ------
     ProvenanceError
-        When it is missing or no JSON, or its values are others than those that were written.
+        When it is missing or no JSON, has no hash, or its values are others than those that were
+        written.
     """
     try:
-        values = json.loads(bytes_of(path))
+        values = parsed_json(bytes_of(path))
     except ValueError:
         raise ProvenanceError(f"damaged or cut short; {anew(path)}", file=path) from None
-    if isinstance(values, dict) and values.pop(HASH, None) not in (None, fingerprint(values)):
-        raise ProvenanceError(f"damaged or changed since it was written; {anew(path)}", file=path)
-    return values
+    found = values.pop(HASH, None) if isinstance(values, dict) else None
+    require(
+        (
+            found,
+            "has no hash of its values: another program made it, or an older version; "
+            + anew(path),
+        ),
+        (found == fingerprint(values), f"damaged or changed since it was written; {anew(path)}"),
+        kind=ProvenanceError,
+        file=path,
+    )
+    return values[LIST] if values.keys() == {LIST} else values
 
 
 def seal(path: str | Path) -> None:

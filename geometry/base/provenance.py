@@ -132,9 +132,23 @@ class Provenance:
             When the text is no provenance: an older version made the file.
         """
         try:
-            return cls(**json.loads(text))
+            return cls(**parsed_json(text))
         except (TypeError, ValueError):
             raise ProvenanceError(f"an older version made it; {anew(path)}", file=path) from None
+
+
+def parsed_json(text: str | bytes) -> Any:
+    """Values of a JSON text.
+
+    Raises
+    ------
+    ValueError
+        When it is none, or is nested deeper than Python reads.
+    """
+    try:
+        return json.loads(text)
+    except RecursionError:
+        raise ValueError("nested too deeply") from None
 
 
 def bytes_of(path: str | Path, remedy: str | None = None) -> bytes:

@@ -4,13 +4,15 @@ import csv
 import os
 import re
 from collections.abc import Collection, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from io import StringIO
 from pathlib import Path
 
-from geometry.base.errors import Fault, SettingsError, require, shown
+from geometry.base.errors import Fault, SettingsError, UserError, require, shown
 
 MOST_BYTES = 2**26  # of a table; decks of meshes may be larger
-NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eEdD][-+]?\d+)?", re.ASCII)
+MOST_LINES = 2**20  # of a table
+NUMBER = re.compile(r"[-+]?(\d+(\.\d*)?|\.\d+)([eEdD][-+]?\d+)?", re.ASCII)
 
 
 def require_file(path: Path, suffixes: Collection[str]) -> None:
@@ -91,10 +93,13 @@ def csv_rows(path: str | Path) -> Iterator[tuple[int, list[str]]]:
     Raises
     ------
     SettingsError
-        When the file cannot be read, a quote is not closed in its line, or cells are separated by
-        semicolons or tabs.
+        When the file cannot be read or has too many lines, a quote is not closed in its line, or
+        cells are separated by semicolons or tabs.
     """
-    for number, line in enumerate(read_text(path).splitlines(), 1):
+    text = read_text(path)
+    lines = text.count("\n")
+    require((lines <= MOST_LINES, f"has {lines} lines: allowed {MOST_LINES}"), kind=SettingsError)
+    for number, line in enumerate(text.splitlines(), 1):
         if not line.strip() or line.lstrip()[0] == "#":
             continue
         try:
@@ -103,13 +108,36 @@ def csv_rows(path: str | Path) -> Iterator[tuple[int, list[str]]]:
             raise SettingsError(f"is no line of a CSV file ({error})", line=number) from None
         require(
             (
-                len(cells) != 1 or not re.search(r"[^{\[].*[;\t]", line),
+                len(cells) != 1 or not {*line.lstrip("{[")[1:]} & {";", "\t"},
                 "needs commas between its cells, not ; or tabs",
             ),
             kind=SettingsError,
             line=number,
         )
         yield number, [cell.strip() for cell in cells]
+
+
+@contextmanager
+def unquoted(path: str | Path) -> Iterator[None]:
+    """Errors in the block, of reading a table: of a file of other folders without what it holds.
+
+    Settings that another one wrote may name any file that is here.
+
+    Raises
+    ------
+    SettingsError
+        In place of any error for users where the file is not in the working directory.
+    """
+    try:
+        yield
+    except (UserError, ValueError):
+        if os.path.realpath(path).startswith(os.path.join(os.path.realpath("."), "")):
+            raise
+        raise SettingsError(
+            "is no such table; it is outside the folder of this run, so that what it holds is not "
+            "shown: copy it into that folder, and name the copy",
+            file=path,
+        ) from None
 
 
 def numbers(cells: Sequence[str], columns: Sequence[str], line: int) -> list[float]:

@@ -21,10 +21,10 @@ import re
 import stat
 import sys
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import ExitStack, contextmanager, suppress
+from contextlib import contextmanager, suppress
 from copy import copy
-from fcntl import LOCK_EX, flock
 from functools import cache
+from itertools import accumulate
 from pathlib import Path
 from types import BuiltinFunctionType, CodeType, FunctionType, ModuleType
 from typing import Any
@@ -39,9 +39,10 @@ from numba.core.serialize import dumps
 from numba.core.types import BaseTuple, Dispatcher as DispatcherType, Type
 from platformdirs import user_cache_path
 
-from geometry.base import intact, write_whole
+from geometry.base import alone, intact, lock_of, write_whole
 
 FOLDER = user_cache_path("tiprub") / "kernels"
+MOST_BYTES = 1 << 28  # of all kernels, some 150: those used last are kept
 VERSIONS = sys.version, numba.__version__, llvmlite.__version__, np.__version__
 PLAIN = bool, int, float, complex, str, type(None)
 MODULES = "math", "numpy"  # modules whose functions depend on their versions only
@@ -76,19 +77,8 @@ def kernel(function: Dispatcher, types: tuple[Type, ...]) -> Callable:
         return _compiled(function, types)
     if (ready := _loaded(function, path)) is not None:
         return ready
-    with _alone(path):
+    with alone(path):
         return _loaded(function, path) or _written(function, types, path)
-
-
-@contextmanager
-def _alone(path: Path) -> Iterator[None]:
-    """Let one process at a time into the block; all of them where the folder takes no lock."""
-    lock = path.with_name(f".{path.name}.lock")
-    with ExitStack() as held:
-        with suppress(OSError):
-            flock(held.enter_context(lock.open("w")), LOCK_EX)
-            held.callback(lock.unlink, missing_ok=True)
-        yield
 
 
 def key(function: Dispatcher, types: tuple[Type, ...]) -> str:
@@ -177,6 +167,7 @@ def _loaded(function: Dispatcher, path: Path) -> Callable | None:
         if not _is_own(path):
             return None
         dumped = pickle.loads(intact(path).read_bytes())
+        os.utime(path)  # it is used
         function.targetctx.refresh()
         return CompileResult._rebuild(function.targetctx, *dumped).entry_point
     return None
@@ -188,7 +179,19 @@ def _written(function: Dispatcher, types: tuple[Type, ...], path: Path) -> Calla
     with suppress(Exception):  # of the file or of numba: the next process compiles again
         write_whole(_dumped(function.overloads[types]), path)
         path.chmod(0o600)
+        _remove_unused(path.parent)
     return compiled
+
+
+def _remove_unused(folder: Path) -> None:
+    """Remove the kernels that were used longest ago, of more than ``MOST_BYTES``."""
+    states = [(path, path.stat()) for path in folder.glob("*.kernel")]
+    states.sort(key=lambda entry: entry[1].st_mtime, reverse=True)
+    sizes = accumulate(state.st_size for _, state in states)
+    for (path, _), size in zip(states, sizes, strict=True):
+        if size > MOST_BYTES:
+            path.unlink(missing_ok=True)
+            lock_of(path).unlink(missing_ok=True)
 
 
 def _compiled(function: Dispatcher, types: tuple[Type, ...]) -> Callable:

@@ -25,6 +25,7 @@ from geometry.base import (
     numbers,
     require,
     shown,
+    unquoted,
 )
 
 # by the name of a column: key, and factor to its unit
@@ -58,10 +59,11 @@ def from_csv(model: type[Settings], x: Columns, y: Columns) -> BeforeValidator:
         """The model in the file at a path; any other value as it is."""
         if not isinstance(value, str | Path):
             return value
-        try:
-            return check_settings(model, _columns(list(csv_rows(value)), x, y), "")
-        except ValueError as error:
-            raise ValueError(f"{value}: {error}") from None
+        with unquoted(value):
+            try:
+                return check_settings(model, _columns(list(csv_rows(value)), x, y), "")
+            except ValueError as error:
+                raise ValueError(f"{value}: {error}") from None
 
     return BeforeValidator(read)
 

@@ -17,11 +17,11 @@ from numpy.typing import NDArray
 from geometry.base import (
     Provenance,
     ProvenanceError,
-    SettingsError,
     anew,
     check_settings,
     code_hash,
     known,
+    parsed_json,
     require,
     require_format,
     version,
@@ -292,7 +292,7 @@ def _require_runs(runs: xr.Dataset) -> None:
     ValueError
         When something is not as it is written.
     """
-    scene = json.loads(runs.attrs["scene"])
+    scene = parsed_json(runs.attrs["scene"])
     dims, must = dict(DIMS), [SPEED, "status"]
     if "gap" in runs and SPEED in runs["gap"].dims:
         dims["gap"] = GAP_OF_SPEED[0]
@@ -384,10 +384,10 @@ def scene_of(dataset: xr.Dataset) -> Scene:
         When this version knows no such scene.
     """
     try:
-        values = json.loads(dataset.attrs["scene"])
+        values = parsed_json(dataset.attrs["scene"])
         values["liner"]["law"] = of_result(values["liner"]["law"])
         return check_settings(Scene, values, "sweep.nc")
-    except (KeyError, TypeError, SettingsError) as error:
+    except (KeyError, TypeError, ValueError) as error:
         key = getattr(error, "key", "liner")
         raise ProvenanceError(
             f"its scene is none that this version knows ({key}); run the scene again",

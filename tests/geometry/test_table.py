@@ -154,8 +154,9 @@ REFUSED = [  # with what the message names, by line and section
 
 @pytest.mark.parametrize(("spoil", "settings", "line", "section", "named"), REFUSED)
 def test_table_that_is_no_blade_is_refused(
-    coarse_blade, outlines, tmp_path, spoil, settings, line, section, named
+    coarse_blade, outlines, tmp_path, monkeypatch, spoil, settings, line, section, named
 ):
+    monkeypatch.chdir(tmp_path)  # of files of other folders the errors say nothing
     lines = rows(outlines)
     spoil(lines)
     error = refused(MeshError, build, coarse_blade, lines, tmp_path, **settings)

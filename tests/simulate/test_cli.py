@@ -10,6 +10,7 @@ import xarray as xr
 import yaml
 from scenes import SCENE
 
+from geometry.base import write_json
 from simulate.__main__ import main
 from simulate.sweeps.dataset import load
 
@@ -155,7 +156,7 @@ def test_an_accuracy_needs_the_checks_of_this_model(project, capsys):
     values = yaml.safe_load(path.read_text()) | {"accuracy": 0.01}
     del values["integrator"], values["liner"]["rods_per_round"], values["liner"]["strips"]
     path.write_text(yaml.safe_dump(values))
-    (folder / "results/mesh-error.json").write_text('{"mesh": "another", "error": 0.001}')
+    write_json({"mesh": "another", "error": 0.001}, folder / "results/mesh-error.json")
     assert "mesh-error.json: belongs to another mesh" in refused(files, capsys)
     (folder / "results/mesh-error.json").unlink()
     assert "rom-check-r.nc: no such file; make it anew: `./run snakemake" in refused(files, capsys)

@@ -124,7 +124,8 @@ FAULTS = {  # table, and what is refused of it before any row is marched: key, v
 
 
 @pytest.mark.parametrize("table", FAULTS, ids=lambda table: table[:20])
-def test_a_wrong_column_is_refused_before_any_row(tmp_path, table):
+def test_a_wrong_column_is_refused_before_any_row(tmp_path, table, monkeypatch):
+    monkeypatch.chdir(tmp_path)
     assert faults(tmp_path, table) == FAULTS[table]
 
 
@@ -230,7 +231,7 @@ def test_the_cost_is_that_of_all_rows(coarse_rom, tmp_path):
     )
 
 
-def test_a_row_may_have_another_blade(coarse_rom, tmp_path):
+def test_a_row_may_have_another_blade(coarse_rom, tmp_path, monkeypatch):
     """Its numbers are those of the scene on that blade's model."""
     provenance = replace(coarse_rom.provenance, blade="stiff")
     stiffer = replace(coarse_rom, K=1.1 * coarse_rom.K, provenance=provenance)
@@ -248,6 +249,9 @@ def test_a_row_may_have_another_blade(coarse_rom, tmp_path):
     np.testing.assert_allclose(rows["largest_wear"], wear, rtol=1e-6)
     with_accuracy = {"accuracy": 0.01, "integrator": None, "liner__rods_per_round": None}
     with_accuracy |= {"liner__strips": None}
+    error = refused(SettingsError, design, tmp_path, "blade\nstiff\n", **with_accuracy)
+    assert error.file.endswith(".csv") and "outside the folder" in error.text
+    monkeypatch.chdir(tmp_path)
     error = refused(SettingsError, design, tmp_path, "blade\nstiff\n", **with_accuracy)
     assert (error.key, error.value) == ("column", "blade")
 

@@ -31,6 +31,7 @@ from geometry.base import (
     number,
     parse,
     refuse,
+    unquoted,
 )
 from simulate.scene import Scene, own_laws
 from workflow.many.columns import COLUMN, keys, placed, value_at
@@ -96,14 +97,15 @@ class Design:
         path, base = Path(normpath(scene_path.parent / scene.design)), scene.but(design=None)
         about, blades, files = (path, scene_path.stem, base), {base.blade: None}, {str(path): None}
         if path.suffix in (".yaml", ".yml"):
-            sobol = Sobol.load(path)
-            columns = [key for factor in sobol.factors.values() for key in factor.keys]
-            refuse(_column_faults(columns, base), file=path)
+            with unquoted(path):
+                sobol = Sobol.load(path)
+                columns = [key for factor in sobol.factors.values() for key in factor.keys]
+                refuse(_column_faults(columns, base), file=path)
             refuse(_number_faults(columns, base), file=path)
             return cls(*about, columns, sobol.rows, tuple(blades), tuple(files), sobol=sobol)
-        lines = _lines(path)
-        columns, count = next(lines, []), 0
-        refuse(_column_faults(columns, base), file=path)
+        lines, count = _lines(path), 0
+        with unquoted(path):
+            refuse(_column_faults(columns := next(lines, []), base), file=path)
         at = columns.index(BLADE) if BLADE in columns else len(columns)
         first: list[list[str]] = []
         for count, line in enumerate(lines, 1):
