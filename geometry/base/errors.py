@@ -132,7 +132,7 @@ def about(file: object, kind: type[UserError] = MeshError) -> Iterator[None]:
 def command(main: Callable[..., int | None]) -> Callable[..., int]:
     """Decorator of a command line, which returns its exit code, 0 where it returns none.
 
-    For unusable input that is 2, with a line for each fault on stderr.
+    For unusable input that is 2, with a line for each fault on stderr; after Ctrl-C it is 130.
     """
 
     @wraps(main)
@@ -143,6 +143,9 @@ def command(main: Callable[..., int | None]) -> Callable[..., int]:
         except UserError as error:
             print(error, file=sys.stderr)
             return 2
+        except KeyboardInterrupt:
+            print("stopped: the same command begins again", file=sys.stderr)
+            return 130
 
     return run
 

@@ -15,12 +15,12 @@ from workflow.figures import table
 from workflow.targets import paper
 from workflow.targets.experiments import Experiments
 from workflow.targets.inputs import code_of, one_of, own_files
-from workflow.targets.messages import closing_words, in_one_line, without_sources, without_traceback
+from workflow.targets.messages import Stop, closing_words, in_one_line, without_sources, without_traceback
 from workflow.targets.project import Project, pictures
 
 LONGEST = 1  # priority of the jobs that others wait for most: figures take the cores that are left
 
-for of_messages in (without_sources, without_traceback):
+for of_messages in (without_sources, without_traceback, Stop()):
     logging.getLogger("snakemake.logging").addFilter(of_messages)
 
 warnings.showwarning = partial(in_one_line, shown=workflow.is_main_process)

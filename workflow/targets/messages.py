@@ -1,6 +1,8 @@
 """What the terminal shows of a run: refusals as sentences, and its last words."""
 
+import os
 import re
+import signal
 import sys
 from collections.abc import Collection, Iterator
 from logging import LogRecord
@@ -8,6 +10,7 @@ from typing import Any
 
 from geometry.base import WARNING
 from workflow.many.table import last_words as words_of_table
+from workflow.start import STOPPED
 from workflow.summary import last_words
 from workflow.targets.project import SUMMARY, Project
 
@@ -27,6 +30,23 @@ def without_traceback(record: LogRecord) -> bool:
     if re.match(REFUSED, text := str(record.msg)):
         record.msg = re.sub(AROUND, "", text)
     return True
+
+
+class Stop:
+    """Of a run that is stopped: one line, and its jobs end at once, for files are made whole."""
+
+    stopped = False
+
+    def __call__(self, record: LogRecord) -> bool:
+        """Whether to show a message: none after the line."""
+        if self.stopped:
+            return False
+        if str(record.msg).startswith("Terminating processes on user request"):
+            record.msg, self.stopped = STOPPED, True
+            if os.getpgrp() == os.getpid():  # as of ./run; else Ctrl-C has ended the jobs, too
+                signal.signal(signal.SIGTERM, signal.SIG_IGN)
+                os.killpg(0, signal.SIGTERM)
+        return True
 
 
 def in_one_line(message: Warning | str, *_: Any, shown: bool, **__: Any) -> None:

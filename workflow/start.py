@@ -1,0 +1,23 @@
+"""``./run snakemake``: Snakemake, which Ctrl-C ends in a line.
+
+While Snakemake has no jobs yet the line is from here, later from ``workflow.targets.messages``.
+"""
+
+import runpy
+import sys
+
+STOPPED = "stopped: the same command goes on from what is done"
+INTERRUPTED = 130  # exit code, as of a shell
+
+
+def main() -> None:
+    """Run Snakemake with the arguments of this program."""
+    try:
+        runpy.run_module("snakemake", run_name="__main__", alter_sys=True)
+    except KeyboardInterrupt:
+        print(STOPPED, file=sys.stderr)
+        sys.exit(INTERRUPTED)
+
+
+if __name__ == "__main__":
+    main()
