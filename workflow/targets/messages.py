@@ -44,8 +44,8 @@ class Stop:
         if str(record.msg).startswith("Terminating processes on user request"):
             record.msg, self.stopped = STOPPED, True
             if os.getpgrp() == os.getpid():  # as of ./run; else Ctrl-C has ended the jobs, too
-                signal.signal(signal.SIGUSR1, signal.SIG_IGN)
-                os.killpg(0, signal.SIGUSR1)  # PETSc has many words for SIGTERM
+                signal.signal(signal.SIGUSR2, signal.SIG_IGN)
+                os.killpg(0, signal.SIGUSR2)  # MPI and PETSc handle SIGUSR1 and SIGTERM
         return True
 
 
