@@ -48,6 +48,7 @@ def _options() -> Iterator[dict[str, Path]]:
     try:
         with alone(FOLDER) as locked:
             FOLDER.mkdir(parents=True, exist_ok=True)
+            FOLDER.chmod(0o700)  # what is in it is run as code
             if locked:
                 _remove_unfinished()
             yield {"cache_dir": FOLDER}

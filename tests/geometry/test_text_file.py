@@ -1,11 +1,13 @@
 """Text files of users: encodings, what is no file, numbers and lines of tables."""
 
 import os
+import signal
+from contextlib import contextmanager
 
 import pytest
 from refused import refused
 
-from geometry.base import SettingsError, csv_rows, number, read_text
+from geometry.base import SettingsError, csv_rows, number, numbers, read_text, unquoted
 
 
 @pytest.mark.parametrize(
@@ -27,6 +29,56 @@ def test_text_that_is_no_number(text):
 def test_text_with_and_without_a_byte_order_mark(tmp_path, encoding):
     (tmp_path / "a").write_text("section,ü", encoding=encoding)
     assert read_text(tmp_path / "a") == "section,ü"
+
+
+@contextmanager
+def soon():
+    """Some seconds of CPU: a pattern that goes back over its text takes minutes."""
+    signal.setitimer(signal.ITIMER_VIRTUAL, 5.0)  # the default action of its signal ends Python
+    yield
+    signal.setitimer(signal.ITIMER_VIRTUAL, 0.0)
+
+
+@pytest.mark.parametrize(
+    "cell", ["1" * 131_071 + "x", "1" * 131_071 + ".", "." + "1" * 131_070, " " * 131_071]
+)
+def test_long_cells_are_read_in_time(tmp_path, cell):
+    with soon():
+        try:
+            number(cell)
+        except ValueError as error:
+            assert len(str(error)) < 200
+        (tmp_path / "a.csv").write_text(f"{cell}\n")
+        list(csv_rows(tmp_path / "a.csv"))
+
+
+def test_a_table_has_no_more_lines_than_are_allowed(tmp_path, monkeypatch):
+    monkeypatch.setattr("geometry.base.text_file.MOST_LINES", 3)
+    (tmp_path / "a.csv").write_text("1\n" * 3)
+    assert len(list(csv_rows(tmp_path / "a.csv"))) == 3
+    (tmp_path / "a.csv").write_text("1\n" * 4)
+    refused(SettingsError, list, csv_rows(tmp_path / "a.csv"), match="has 4 lines: allowed 3")
+
+
+@pytest.mark.parametrize(
+    ("name", "quoted"), [("in.csv", True), ("../out.csv", False), ("link.csv", False)]
+)
+def test_a_table_of_another_folder_is_not_quoted(tmp_path, monkeypatch, name, quoted):
+    """Of which a scene from others may name any, as those with passwords."""
+    (tmp_path / "project").mkdir()
+    monkeypatch.chdir(tmp_path / "project")
+    for path in ("in.csv", "../out.csv"):
+        with open(path, "w") as file:
+            file.write("root:secret\n")
+    os.symlink("../out.csv", "link.csv")
+
+    def read():
+        with unquoted(name):
+            return [numbers(cells, ["a"], line) for line, cells in csv_rows(name)]
+
+    error = refused(SettingsError, read)
+    assert ("secret" in str(error)) is quoted
+    assert ("outside the folder" in error.text) is not quoted
 
 
 def test_what_is_no_text_file(tmp_path):

@@ -11,6 +11,7 @@ from scipy.linalg import eigvalsh
 
 from geometry.base import Provenance, ProvenanceError, code_hash, seal
 from geometry.stored import FORMAT, write
+from rom.elsewhere import read_elsewhere
 from rom.model import CODE, DIRECTIONS, Rom, RomError, require_letters
 from simulate.errors.model_errors import ModelErrors
 
@@ -34,6 +35,18 @@ def rom():
         span=0.14,
         provenance=PROVENANCE,
     )
+
+
+@pytest.mark.parametrize("chunks", [None, (1000, 1000)])
+def test_a_file_that_declares_more_than_it_holds_is_not_read(tmp_path, chunks):
+    """Some kilobytes, sealed or from elsewhere, that would be 51 GB of zeros."""
+    path = tmp_path / "rom.nc"
+    with h5py.File(path, "w") as file:
+        file.create_dataset("M", (80_000, 80_000), float, chunks=chunks)
+    assert path.stat().st_size < 1e4
+    refused(RomError, read_elsewhere, path, "mine", match=r"declares 5.12e\+10 bytes")
+    seal(path)
+    refused(ProvenanceError, Rom.load, path, match=r"declares 5.12e\+10 bytes")
 
 
 def test_file_explains_itself(rom, tmp_path):

@@ -1,5 +1,6 @@
 """Kernels on disk: known by what their machine code depends on, and never needed."""
 
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -54,6 +55,19 @@ def tabulated(law, eps):
 @compiled
 def thrice(law, eps):
     return 3.0 * law.k * eps
+
+
+@pytest.mark.parametrize("most", [0, 10, 25, 100])
+def test_kernels_used_longest_ago_are_removed(tmp_path, monkeypatch, most):
+    monkeypatch.setattr(kernel_file, "MOST_BYTES", most)
+    for age, name in enumerate(["new", "older", "oldest"]):
+        for path in (tmp_path / f"{name}.kernel", tmp_path / f".{name}.kernel.lock"):
+            path.write_bytes(bytes(10))
+            os.utime(path, (1e9 - age, 1e9 - age))
+    kernel_file._remove_unused(tmp_path)
+    kept = ["new", "older", "oldest"][: most // 10]
+    names = {path.name for path in tmp_path.iterdir()}
+    assert names == {of for name in kept for of in (f"{name}.kernel", f".{name}.kernel.lock")}
 
 
 @compiled

@@ -1,0 +1,218 @@
+"""Cost of sweeps that is told beforehand, against the cost taken, over drawn scenes.
+
+    ./run python -m tests.benchmarks.told                       # 200 scenes, and three extremes
+    ./run python -m tests.benchmarks.told --scenes 20 --seed 3  # fewer, others
+
+The reduced models are those of ``./run snakemake results/paper/rom-rt.nc results/paper/rom-r.nc
+results/rotor67/rom-rtz.nc``. Each scene is swept in a process of its own, after its code is
+compiled; its CPU time and memory are those of that process, with the file of the sweep. Keys that
+are added to scenes later join ``drawn``.
+"""
+
+import argparse
+import csv
+import multiprocessing as mp
+import sys
+from collections.abc import Iterator
+from math import exp, log
+from pathlib import Path
+from random import Random
+from resource import RUSAGE_SELF, getrusage
+from tempfile import TemporaryDirectory
+from time import process_time
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from geometry.base import UserError, check_settings
+from rom.model import Rom
+from simulate.marching import make_kernel, prepare
+from simulate.scene import Scene
+from simulate.sweeps.cost import cost
+from simulate.sweeps.dataset import save
+from simulate.sweeps.sweep import sweep
+
+SEED = 89
+SHORTEST, LONGEST = 0.1, 30.0  # s, told, of a scene that is run
+MODELS = [("paper", "r"), ("paper", "rt"), ("rotor67", "rtz")]
+HEADS = ("scene", "seconds", "told", "GB", "told GB", "contact", "scheme", "friction", "strips")
+WITHIN = {"median": (0.5, 1.5), "nine in ten": (0.9, 3.0)}  # share of the scenes, and factor
+VERIFY = [None, "peaks", "every", {"share": 0.0}, {"share": 0.5, "predictable": True}]
+
+
+class Taken(NamedTuple):
+    """What a sweep took."""
+
+    seconds: float  # CPU time
+    memory: float  # bytes, at most
+    contact: float  # steps with contact over all steps
+
+
+class Draw(Random):
+    """Random values of keys."""
+
+    def over(self, low: float, high: float) -> float:
+        """A value between two, each of its sizes as likely."""
+        return float(f"{exp(self.uniform(log(low), log(high))):.4g}")
+
+    def maybe(self, share: float, **values: Any) -> dict[str, Any]:
+        """The values, with this probability."""
+        return values if self.random() < share else {}
+
+
+def drawn(draw: Draw) -> tuple[str, dict[str, Any]]:
+    """Directions of the model, and a scene as a user writes it."""
+    blade, directions = draw.choice(MODELS)
+    samples, first = draw.choice([256, 512, 1024]), draw.over(0.03, 0.3)
+    steps = {"steps_per_round": samples * draw.choice([1, 2, 4, 8])}
+    central = {
+        "scheme": "central-difference",
+        "fraction_of_limit": round(draw.uniform(0.3, 0.9), 2),
+    }
+    integrator = central if draw.random() < 0.3 else {"scheme": "piecewise-exact"} | steps
+    last = first * draw.over(1.02, 4)
+    harmonic = {"order": draw.randint(1, 8), "amplitude_gaps": draw.over(0.5, 4)}
+    law = {"kind": "plastic", "K": 2.0, "sigma_Y": 1e-3, "unit_MPa": 354.0}
+    return directions, {
+        "blade": blade,
+        "speeds": {"over_f1": {"first": first, "last": last, "count": draw.randint(1, 8)}},
+        "rounds": draw.randint(3, 30),
+        "integrator": integrator,
+        "damping_ratio": draw.over(5e-4, 1e-2),
+        "clearance": {
+            "leading_edge_over_span": draw.over(5e-5, 1e-3),
+            "trailing_edge_over_span": draw.over(5e-5, 1e-3),
+        },
+        "casing": {
+            "harmonics": [harmonic | draw.maybe(0.2, speed_rpm=draw.over(10, 1e4))],
+            "ramp_rounds": draw.choice([0.5, 1, 2, 5]),
+        },
+        "liner": {
+            "law": law | {"E": draw.over(0.1, 100)},
+            "thickness_mm": 5,
+            "strips": round(draw.over(1, 64)),
+            "footprint_mm": draw.over(2, 20),
+            "rods_per_round": round(draw.over(256, 8192)),
+        },
+        "record": {
+            "samples_per_round": samples,
+            "wear": draw.random() < 0.5,
+            **draw.maybe(0.7, spectrum_rounds=2),
+            **draw.maybe(0.2, states_rounds=1),
+        },
+        **draw.maybe(0.5, verify=draw.choice(VERIFY[1:])),
+        **draw.maybe(0.2, peaks={"orders": [draw.randint(2, 8)], "within_over_f1": 0.005}),
+        **draw.maybe(0.2, peaks={"within_over_f1": 0.005}),
+        **(
+            draw.maybe(0.4, contact={"friction": draw.over(0.02, 0.3)}) if "t" in directions else {}
+        ),
+    }
+
+
+def extremes() -> Iterator[tuple[str, str, dict[str, Any]]]:
+    """Name, directions and scene of what the cost once was told worst of."""
+    draw = Draw(SEED)
+    directions, usual = "rt", {}
+    while usual.get("blade") != "paper" or directions != "rt" or "contact" in usual:
+        directions, usual = drawn(draw)
+    usual |= {"integrator": {"scheme": "piecewise-exact", "steps_per_round": 2048}, "rounds": 10}
+    usual["record"] = {"samples_per_round": 512, "spectrum_rounds": 2}
+    usual["speeds"] = {"over_f1": [0.2, 0.25]}
+    usual.pop("peaks", None), usual.pop("verify", None)
+    many = usual["liner"] | {"strips": 256}
+    yield (
+        "friction, 256 strips",
+        "rt",
+        usual | {"liner": many, "contact": {"friction": 0.1}, "rounds": 3},
+    )
+    central = {"scheme": "central-difference", "fraction_of_limit": 0.5}
+    far = {"over_f1": [0.001, 0.01, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5]}
+    yield (
+        "central differences, 500-fold speeds",
+        "rt",
+        usual | {"integrator": central, "speeds": far, "rounds": 3},
+    )
+    every = {"over_f1": {"first": 0.1, "last": 0.4, "count": 16}}
+    yield "every speed verified", "rt", usual | {"speeds": every, "verify": "every"}
+
+
+def taken(scene: Scene, rom: Rom) -> Taken | str:
+    """Of the sweep of a scene in a process of its own; or why it is refused."""
+    receive, send = mp.Pipe(duplex=False)
+
+    def run() -> None:
+        with TemporaryDirectory() as folder:
+            try:
+                make_kernel(scene, prepare(scene, rom, float(scene.speeds.omega(rom.f1)[0])))
+                begun = process_time()
+                runs = sweep(scene, rom)
+                save(runs, Path(folder, "sweep.nc"))
+            except UserError as error:
+                send.send(str(error).splitlines()[0])
+                return
+        seconds, memory = process_time() - begun, getrusage(RUSAGE_SELF).ru_maxrss * 1024
+        send.send(Taken(seconds, memory, float(runs["contact_share"].mean())))
+
+    process = mp.get_context("fork").Process(target=run)
+    process.start()
+    send.close()
+    found = receive.recv()
+    process.join()
+    return found
+
+
+def rows(scenes: int, seed: int) -> Iterator[list[Any]]:
+    """A row of each scene that is not refused."""
+    roms = {key: Rom.load(f"results/{key[0]}/rom-{key[1]}.nc") for key in MODELS}
+    draw, number = Draw(seed), 0
+    cases = [*extremes()]
+    while number < scenes + len(cases):
+        name, directions, values = cases[number] if number < len(cases) else ("drawn", *drawn(draw))
+        scene, rom = check_settings(Scene, values, name), roms[values["blade"], directions]
+        try:
+            told = cost(scene, rom)
+        except UserError:
+            continue
+        if name == "drawn" and not SHORTEST <= told.seconds <= LONGEST:
+            continue
+        found = taken(scene, rom)
+        if isinstance(found, str):
+            print("refused", found, file=sys.stderr)
+            continue
+        number += 1
+        yield [
+            name if name != "drawn" else number,
+            f"{found.seconds:.3g}",
+            f"{told.seconds:.3g}",
+            f"{found.memory / 1e9:.3g}",
+            f"{told.memory / 1e9:.3g}",
+            f"{found.contact:.3g}",
+            scene.stepping.scheme,
+            scene.contact.friction,
+            scene.liner.m,
+            rom.n,
+            rom.across,
+            len(rom.directions),
+            told.all_steps,
+            told.steps,
+            scene.liner.nu,
+            scene.rounds,
+            told.speeds,
+            scene.verify if isinstance(scene.verify, str) else scene.verify.share,
+            bool(scene.peaks),
+        ]
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--scenes", type=int, default=200)
+    parser.add_argument("--seed", type=int, default=SEED)
+    given = parser.parse_args()
+    writer = csv.writer(sys.stdout)
+    for row in rows(given.scenes, given.seed):
+        writer.writerow(row)
+        sys.stdout.flush()
+
+
+if __name__ == "__main__":
+    main()
