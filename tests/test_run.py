@@ -3,6 +3,7 @@
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tomllib
@@ -16,21 +17,60 @@ ROOT = Path(__file__).parents[1]
 SCRIPT = (ROOT / "run").read_text()
 LOCK = (ROOT / "requirements.lock").read_text()
 PYTHON = Path(sys.executable).resolve()
-TOOLS = ["awk", "bash", "cat", "cmp", "dirname", "env", "flock", "ln", "mkdir", "readlink", "rm"]
-TOOLS += ["sh", "sleep", "true"]
-UV = """
+TOOLS = ["awk", "bash", "cat", "cmp", "cp", "dirname", "env", "flock", "ln", "mkdir", "mv"]
+TOOLS += ["readlink", "rm", "sed", "sh", "sleep", "touch", "true"]
+# At the phase AT of the installation the whole process group gets SIGNAL.
+STOP = """
+at() { [ "$AT" != "$1" ] || kill "-$SIGNAL" 0; }
+for last; do :; done
+"""
+# As the real one, it clears no folder that is half an environment, unless it is forced to.
+UV = (
+    STOP
+    + """
 case $1 in
     --version) echo "uv VERSION" ;;
     venv)
         echo "$@" >"$HOME/venv"
-        for env; do :; done
-        rm -rf "$env"
-        mkdir -p "$env/bin"
-        ln -s "$HOME/python" "$env/bin/python"
+        case $* in *--force*) touch "$last/pyvenv.cfg" 2>/dev/null ;; esac
+        [ ! -e "$last" ] || [ -e "$last/pyvenv.cfg" ] || exit 1
+        rm -f "$last/packages" "$last/pyvenv.cfg"
+        at clear
+        rm -rf "$last"
+        mkdir -p "$last/bin"
+        at venv
+        touch "$last/pyvenv.cfg"
+        ln -s "$HOME/python" "$last/bin/python"
         sleep 0.1 ;;
-    pip) cat >"$HOME/installed"; echo made >>"$HOME/log"; [ ! -e "$HOME/broken" ] ;;
+    pip)
+        cat >"$HOME/installed"
+        echo made >>"$HOME/log"
+        at sync
+        if [ -e "$HOME/broken" ]; then cat "$HOME/broken" >&2; exit 1; fi
+        touch "${6%/bin/python}/packages" ;;
 esac
-""".replace("VERSION", re.search(r"^uv_version=(.+)$", SCRIPT, re.MULTILINE)[1])
+""".replace("VERSION", re.search(r"^uv_version=(\S+)", SCRIPT, re.MULTILINE)[1])
+)
+# A Python whose version is one of ours, with DOLFINx. As the real one, it mends no half folder.
+FAKE = f"""{STOP}
+case $1$2 in
+    -c*) echo "$0" ;;
+    -P*) ;;
+    -mvenv)
+        [ ! -e "$last/bin" ] || exit 0
+        mkdir -p "$last/bin"
+        at folder
+        cp "$0" "$last/bin/python" ;;
+    -mensurepip) at ensurepip ;;
+    -mpip)
+        {{ echo "$@"; cat; }} >"$HOME/asked"
+        echo half >"${{0%/*}}/uv"
+        at pip
+        rm "${{0%/*}}/uv"
+        cp "$HOME/uv" "${{0%/*}}/uv" ;;
+    *) exec {PYTHON} "$@" ;;
+esac
+"""
 
 
 class Machine:
@@ -48,6 +88,7 @@ class Machine:
         self.command("id", "echo 1000")
         self.command("cc", "")
         self.command("uv", UV, self.root / ".venv-uv/bin")
+        self.command("uv", UV, self.home)
         self.command("python", "", self.home)
         (self.bin / "python3.12").symlink_to(PYTHON)
         self.libraries = folder / "lib"
@@ -58,6 +99,10 @@ class Machine:
         path.unlink(missing_ok=True)
         path.write_text(f"#!/bin/sh\n{body}\n")
         path.chmod(0o755)
+
+    def without_uv(self) -> None:
+        shutil.rmtree(self.root / ".venv-uv")
+        self.command("python3.12", FAKE)
 
     def start(self, *command: str, **variables: str) -> subprocess.Popen:
         paths = [str(self.libraries), os.environ.get("LD_LIBRARY_PATH", "")]
@@ -74,6 +119,9 @@ class Machine:
             text=True,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
+            start_new_session=True,
+            # a pytest in the background ignores it, and so would its children
+            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
         )
 
     def run(self, *command: str, **variables: str) -> subprocess.CompletedProcess:
@@ -192,29 +240,91 @@ def test_environment_is_made_once_and_again_after_a_change(machine, change, time
     assert machine.times_made() == times
 
 
-def test_an_incomplete_environment_is_made_again(machine):
-    (machine.home / "broken").touch()
-    assert machine.run("true").returncode == 1
+# --- an installation that stops
+
+
+@pytest.mark.parametrize("phase", ["folder", "ensurepip", "pip", "mv", "clear", "venv", "sync"])
+def test_a_call_after_a_kill_makes_what_is_missing(machine, phase):
+    machine.without_uv()
+    machine.command("mv", f'{STOP}\nat mv; exec {shutil.which("mv")} "$@"')
+    assert machine.run("true", AT=phase, SIGNAL="KILL").returncode == -signal.SIGKILL
+    assert machine.run("true").returncode == 0
+    assert (machine.root / ".venv/packages").exists()
+    assert {path.name for path in (machine.root / ".venv-uv").iterdir()} == {"bin", "lock"}
+
+
+@pytest.mark.parametrize("phase", ["clear", "venv", "sync"])
+def test_what_a_kill_leaves_is_no_environment_of_the_lock_before(machine, named, phase):
+    machine.run("true", TIPRUB_PYTHON=named)
+    change_lock(machine)
+    assert machine.run("true", AT=phase, SIGNAL="KILL").returncode == -signal.SIGKILL
+    (machine.root / "requirements.lock").write_text(LOCK)
+    assert machine.run("true").returncode == 0
+    assert (machine.root / ".venv/packages").exists()
+    assert f"--python {named} " in (machine.home / "venv").read_text()
+
+
+@pytest.mark.parametrize("phase", ["pip", "sync"])
+def test_an_interrupt_is_one_line(machine, phase):
+    machine.without_uv()
+    result = machine.run("true", AT=phase, SIGNAL="INT")
+    assert result.returncode == 130
+    assert result.stderr.splitlines()[1:] == ["./run: interrupted; the same command continues"]
+    assert machine.run("true").returncode == 0
+
+
+PIP = "WARNING: Retrying after connection broken by 'Error: no'\nERROR: No uv found\n"
+HASH = "ERROR: HASHES do not match\n    uv from x:\n        Got    e18a\n"
+
+
+@pytest.mark.parametrize(
+    ("output", "words"),
+    [
+        (PIP, "No uv found; connect to the network"),
+        ("error: a\n  cause: error sending request\n  cause: dns error\n", "dns error; connect"),
+        ("error: a\n  cause: /f: No space left on device (os error 28)\n", "free 2 GB and"),
+        (HASH, "HASHES do not match; mend that and"),
+        ("Traceback:\n  File\nOSError: no folder\n", "OSError: no folder; mend that and"),
+    ],
+    ids=["pip without network", "uv without network", "no room", "other hashes", "traceback"],
+)
+def test_why_no_environment_is_made_is_one_line(machine, output, words):
+    (machine.home / "broken").write_text(output)
+    result = machine.run("true")
+    (line,) = result.stderr.splitlines()[1:]
+    assert result.returncode == 1
+    assert line.startswith("./run: cannot make .venv: ") and words in line
+    assert line.endswith("give the command again (all output: .venv-uv/log)")
+    assert (machine.root / ".venv-uv/log").read_text() == output
     (machine.home / "broken").unlink()
     assert machine.run("true").returncode == 0
     assert machine.times_made() == 2
 
 
+def test_a_folder_without_rights_is_one_line(machine):
+    machine.without_uv()
+    machine.command("mkdir", 'echo "mkdir: no" >&2; exit 1')
+    assert machine.refusal() == (
+        "./run: cannot make .venv: mkdir: no; "
+        "copy the project to a folder of yours and give the command again"
+    )
+
+
+def test_uv_is_installed_by_its_hash(machine):
+    machine.without_uv()
+    machine.run("true")
+    asked = r".* --require-hashes -r \S+\nuv==[\d.]+( +--hash=sha256:[0-9a-f]{64}){2}\n"
+    assert re.fullmatch(asked, (machine.home / "asked").read_text())
+
+
 # --- a named Python with DOLFINx
 
 WHEELS = {"dolfinx-solver-real", "fenics-basix", "fenics-ffcx", "fenics-ufl", "mpi4py", "mpich"}
-NAMED = f"""
-case $1 in
-    -c) echo "$0" ;; # its version is one of ours
-    -P) ;; # so is its DOLFINx
-    *) exec {PYTHON} "$@" ;;
-esac
-"""
 
 
 @pytest.fixture
 def named(machine):
-    machine.command("named", NAMED, machine.home)
+    machine.command("named", FAKE, machine.home)
     return str(machine.home / "named")
 
 
@@ -283,12 +393,13 @@ def test_of_the_callers_settings_only_that_of_threads_reaches_the_command(machin
 
 @pytest.mark.parametrize("version", [(3, 11, 9), (3, 15, 0)])
 def test_no_suitable_python(machine, version):
+    machine.without_uv()
     (machine.bin / "python3.12").unlink()
     disguise = f"import sys; sys.version_info = {version}; exec(sys.argv[1])"
-    machine.command("python3", f'exec {PYTHON} -c "{disguise}" "$2"')
+    tell = f'[ "$1" != -c ] || exec {PYTHON} -c "{disguise}" "$2"'
+    machine.command("python3", tell + FAKE)
     assert machine.refusal().endswith("install one with: .venv-uv/bin/uv python install 3.12")
-    shutil.rmtree(machine.root / ".venv-uv")
-    assert "&& .venv-uv/bin/pip install -q uv==" in machine.refusal()
+    assert os.access(machine.root / ".venv-uv/bin/uv", os.X_OK)
 
 
 @pytest.mark.parametrize(
