@@ -194,9 +194,23 @@ def test_an_umlaut_in_the_path_stops_no_python_of_an_ascii_locale(machine):
 
 
 def test_targets_beside_config_are_none_of_its_values(machine):
-    machine.command("snakemake", 'echo "$@"')
+    machine.command("python", 'echo "$@"', machine.home)
     for words in (["sweeps", "--config", "blocks=2"], ["--config", "blocks=2", "-n", "sweeps"]):
-        assert machine.run("snakemake", *words).stdout == f"{' '.join(words)}\n"
+        expected = f"-m workflow.start {' '.join(words)}\n"
+        assert machine.run("snakemake", *words).stdout == expected
+
+
+@pytest.mark.parametrize("sent", [signal.SIGINT, signal.SIGTERM])
+def test_ctrl_c_reaches_snakemake_and_not_its_jobs(machine, sent):
+    """They are in a group of its own; its exit code is that of the command."""
+    job = "trap 'echo job got it' INT TERM; echo ready; sleep 1; sleep 1"
+    of_snakemake = f"trap 'echo got it; wait; exit 7' INT; sh -c \"{job}\" & wait"
+    machine.command("python", of_snakemake, machine.home)
+    with machine.start("snakemake") as process:
+        assert process.stdout.readline() == "ready\n"
+        process.send_signal(sent)
+        out, _ = process.communicate(timeout=30)
+    assert (out, process.returncode) == ("got it\n", 7)
 
 
 # --- the environment is made when it has to be, and only then

@@ -6,7 +6,7 @@ While Snakemake has no jobs yet the line is from here, later from ``workflow.tar
 import runpy
 import sys
 
-STOPPED = "stopped: the same command goes on from what is done"
+STOPPED = "interrupted; the same command continues from what is done"
 INTERRUPTED = 130  # exit code, as of a shell
 
 

@@ -144,7 +144,7 @@ def command(main: Callable[..., int | None]) -> Callable[..., int]:
             print(error, file=sys.stderr)
             return 2
         except KeyboardInterrupt:
-            print("stopped: the same command begins again", file=sys.stderr)
+            print("interrupted; the same command begins again", file=sys.stderr)
             return 130
 
     return run

@@ -22,8 +22,6 @@ from tempfile import TemporaryDirectory
 from time import process_time
 from typing import Any, NamedTuple
 
-import numpy as np
-
 from geometry.base import UserError, check_settings
 from rom.model import Rom
 from simulate.marching import make_kernel, prepare

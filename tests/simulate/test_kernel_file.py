@@ -155,7 +155,7 @@ def test_of_processes_that_start_at_once_one_compiles_the_file_which_all_read(tm
     at_once = processes(folder, 3)
     assert {(told[0], told[1]) for told in at_once} == {(at_once[0][0], "30.0")}
     assert sorted(told[2] for told in at_once) == ["0", "0", "1"]  # two wait for the one's file
-    assert [path.name for path in folder.iterdir()] == [f"apply-{at_once[0][0]}.kernel"]
+    assert [path.name for path in folder.glob("*.kernel")] == [f"apply-{at_once[0][0]}.kernel"]
     assert processes(folder, 1) == [[at_once[0][0], "30.0", "0"]]  # nothing compiled
 
 
@@ -164,7 +164,7 @@ def test_a_file_that_cannot_be_read_is_made_anew(folder, content):
     arguments = Law(thrice, Spring(3.0)), 5.0
     types = types_of(*arguments)
     kernel_file.kernel(apply, types)
-    (file,) = folder.iterdir()
+    (file,) = folder.glob("*.kernel")
     whole = file.read_bytes()
     flipped = whole[:99] + bytes([whole[99] ^ 1]) + whole[100:]
     file.write_bytes(flipped if content is None else content)
