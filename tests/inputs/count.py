@@ -5,7 +5,7 @@ from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
 TESTS = Path(__file__).parents[1]
-sys.path[:0] = [str(TESTS / name) for name in ("inputs", "geometry", "simulate")]
+sys.path[:0] = [str(TESTS / name) for name in ("inputs", "geometry", "simulate", "fem", "workflow")]
 
 from tester import count  # noqa: E402
 

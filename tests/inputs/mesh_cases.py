@@ -1,8 +1,10 @@
 """Meshes, CAD files and parameters that are meshed, changed as people and accidents change them."""
 
+import shutil
 import tempfile
 import warnings
 from collections.abc import Callable
+from dataclasses import replace
 from functools import cache, partial, reduce
 from itertools import product
 from operator import getitem
@@ -10,11 +12,12 @@ from pathlib import Path
 from typing import Any
 
 import exports
+import gmsh
 import numpy as np
 from blades import given as changed, volume as exact_volume
 from bricks import Bricks
 from case import Case, Content
-from changes import cell, contents, cut, line, other_line
+from changes import LONG, binary, cell, contents, cut, line, long, other_line, size
 from hypothesis import strategies as st
 from yaml_cases import WORKFLOW, Cases
 
@@ -22,6 +25,7 @@ from geometry.base import MeshWarning
 from geometry.blade import Blade
 from geometry.mesh import build_mesh
 from geometry.profile import profile_at
+from geometry.shape import merge, session
 from geometry.split import KINDS
 
 SAME = 1e-6  # relative, of volumes of one mesh: files hold some nine digits
@@ -46,12 +50,47 @@ def files() -> dict[str, str]:
             write(mesh.with_name(name), *parts)
         bricks = Bricks(coarse().sections, 4, 1, 8).parts("hexahedron")
         exports.write_inp(mesh.with_name(BRICKS), *bricks, kind="C3D20")
-        texts = {name: mesh.with_name(name).read_bytes() for name in (*FORMATS, BRICKS)}
+        with session("-"):
+            merge(shutil.copy(mesh, mesh.with_name(OURS)))
+            gmsh.option.setNumber("Mesh.Binary", 1)
+            gmsh.write(str(mesh.with_name(BINARY)))
+        texts = {name: mesh.with_name(name).read_bytes() for name in (*DECKS, *OTHERS)}
         return {name: text.decode(errors="surrogateescape") for name, text in texts.items()}
 
 
-FORMATS = {f"b{suffix}": exports.FORMATS[suffix] for suffix in (".inp", ".bdf", ".vtu", ".msh")}
-OTHERS = ("b.bdf", "b.vtu", "b.msh")  # which numpy_volume does not read
+FORMATS = {f"b{suffix}": of for suffix, of in exports.FORMATS.items()}
+OURS, BINARY = "ours.msh", "binary.msh"  # MSH 4.1, in m
+OTHERS = [*FORMATS, OURS, BINARY][1:]  # which numpy_volume does not read
+SIZES = {  # where a format says how many there are, or numbers them
+    "b.inp": [r"^(\d+), ", r"^\*NSET, NSET=root\n(\d+),"],
+    "b.bdf": [r"^GRID\*   ( *\d+)", r"^CTETRA  ( *\d+)( *1)"],
+    "b.cdb": [
+        r"^NBLOCK,6,SOLID,( *\d+),( *\d+)\n\((\d)i(\d),(\d)e(\d+)\.(\d+)",
+        r"^EBLOCK,19,SOLID,( *\d+),( *\d+)\n\((\d+)i(\d)",
+        r"^CMBLOCK,\w+ *,NODE,( *\d+).*\n\((\d)i(\d+)\)\n( *\d+)( *\d+)",
+        r"^( *\d+)( +0) +0 ",
+    ],
+    "b.vtu": [r'NumberOf(?:Points|Cells)="(\d+)"', r'NumberOfComponents="(\d+)"'],
+    "b.msh": [r"^\$(?:Nodes|Elements|PhysicalNames)\n(\d+)\n(\d+) (\d+)"],
+    OURS: [
+        r"^\$(?:Nodes|Elements)\n(\d+) (\d+) (\d+) (\d+)\n(\d+) (\d+) (\d+) (\d+)\n(\d+)",
+        r"^\$(?:PhysicalNames|Entities)\n(\d+)",
+    ],
+}
+MORE = {  # lines that stand for many, at the end
+    "b.inp": (
+        "*NSET, NSET=x, GENERATE\n1, 1000000000000, 1",
+        "*ELSET, ELSET=x, GENERATE\n1, 99999999999",
+    ),
+    "b.cdb": (
+        "CMBLOCK,X,NODE,2\n(8i14)\n             1-1000000000000",
+        "CMBLOCK,X,ELEM,2\n(8i10)\n         1-999999999",
+    ),
+    "b.msh": ("$Nodes\n" * 50_000, "$Elements\n1000000000000"),
+    OURS: ("$Nodes\n" * 50_000, "$Nodes\n1 1000000000000 1 1000000000000"),
+    "b.bdf": ("CTETRA  " + "        +\n+" * 50_000,),
+    "b.vtu": ("<a>" * 100_000, '<!DOCTYPE a [<!ENTITY b "b">]>'),
+}
 BRICKS = "bricks.inp"
 DECKS = ("b.inp", BRICKS)
 
@@ -108,7 +147,8 @@ def build(file: str, root: Any = None, **keys: Any) -> Callable[[Path], Any]:
     """Mesh of a blade from a file in a folder."""
 
     def read(folder: Path) -> Any:
-        groups = (root, 562.3) if root else FORMATS["b.inp" if file in DECKS else file][1:]
+        same = {BRICKS: "b.inp", OURS: "b.msh", BINARY: "b.msh"}
+        groups = (root, 562.3) if root else FORMATS[same.get(file, file)][1:]
         blade = exports.as_meshed(coarse(), file, *groups, **keys)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", MeshWarning)  # a fault that is told is not silent
@@ -143,6 +183,8 @@ def _case(
     expected = (lambda: numpy_volume(text)) if file in DECKS else volume
     if file == BRICKS:
         keys["interface"] = {"patches": 4}
+    if file in (OURS, BINARY):
+        keys["unit"] = "m"
     close = CLOSE if file == BRICKS else SAME
     fault = of_volume(expected, close)
     return Case("mesh", change, {file: data}, build(file, **keys), must, fault)
@@ -163,7 +205,7 @@ def decks(file: str) -> Cases:
     cards = [i for i, line in enumerate(text.split("\n")) if line.startswith("*")]
     odd = ["", "x", "1_0", "nan", "1.0D+01", "-1", "0", "999999", "1", "٣", "1e400", "1" * 5000]
     names = ["", "*", "*NODE", "*ELEMENT", "*NSET", "*ELEMENT, TYPE=C3D4", "*ELSET, ELSET=x"]
-    changed = [other_line(text, cards, names)]
+    changed = [other_line(text, cards, names), long(text, nodes)]
     for of in (nodes, elements):
         changed += [cell(text, of, odd, st.nothing()), line(text, of, "lost", "twice", "cut")]
 
@@ -205,6 +247,26 @@ def decks(file: str) -> Cases:
         return _case("node not merged", "\n".join(lines), "refuse", file)
 
     return st.one_of(*changed).map(case) | moved() | cuts | unmerged()
+
+
+def sizes() -> Cases:
+    """Numbers of nodes and cells, ranges and texts that are much longer than what the file has."""
+
+    def of(file: str) -> Cases:
+        text = files()[file]
+        n = text.count("\n")
+        changed = size(text, *SIZES[file]) | long(text, [*range(min(n, 40)), n // 2, n - 2])
+        more = st.sampled_from(MORE[file]).map(lambda lines: ("more lines", f"{text}{lines}\n"))
+        return (changed | more).map(lambda change: _case(*change, file=file))
+
+    @st.composite
+    def of_bytes(draw: st.DrawFn) -> Case:
+        data = files()[BINARY].encode(errors="surrogateescape")
+        change, data = draw(binary(data))
+        case = _case(change, files()[BINARY], file=BINARY, data=data)
+        return replace(case, fault=lambda summary: "")  # a bit of a number is seen by nobody
+
+    return st.sampled_from(sorted(SIZES)).flatmap(of) | of_bytes()
 
 
 def formats() -> Cases:
@@ -255,13 +317,21 @@ STEP = (
     "ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\n"
     "#1 = ( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.MILLI.,.METRE.) );\nENDSEC;\n"
 )
+STEPS = [("UNIT(", f"UNIT{LONG[name]}(") for name in ("only  ", "only \n", "only '", "only 1")]
+STEPS += [
+    ("#1", f"#{'9' * 5000}"),
+    ("(", "(" * 10_000),
+    (" = (", "= CLOSED_SHELL('',(#1));\n#2 = ("),
+]
 
 
 def cad() -> Cases:
     """CAD files that are refused before the library reads them."""
     data = [b"", b"x", STEP.encode(), b"ISO-10303-21;\nEND-ISO-10303-21;\n", bytes(range(256))]
     data += ["folder", "pipe", STEP.encode("utf-16")]
-    names = ("b.step", "b.stp", "b.igs", "b")
+    data += [f"{STEP}{text}END-ISO-10303-21;\n".encode() for text in LONG.values()]
+    data += [STEP.replace(*change).encode() + b"END-ISO-10303-21;" for change in STEPS]
+    names = ("b.step", "b.stp", "b.igs", "b", "b.brep")
 
     faces = {"root": {"radius_mm": 422.5}, "tip": {"radius_mm": 562.3}}
 
@@ -320,4 +390,5 @@ def closed_form(sections: dict[str, Any]) -> float:
 
 def mesh_cases() -> Cases:
     """All of these."""
-    return st.one_of(decks("b.inp"), decks("b.inp"), decks(BRICKS), formats(), cad(), built())
+    of_decks = decks("b.inp"), decks("b.inp"), decks(BRICKS)
+    return st.one_of(*of_decks, formats(), sizes(), sizes(), cad(), built())

@@ -3,21 +3,34 @@
 import re
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 import yaml
 from case import Case, Content
-from changes import cell, contents, cut, lines_lost, other_line
+from changes import cell, contents, cut, lines_lost, long, other_line
 from hypothesis import strategies as st
+from pydantic import create_model
 from scenes import SCENE
 from yaml_cases import WORKFLOW, Cases
 from yaml_oracle import differ, leaves
 
-from geometry.base import SettingsError, about, check_settings
+from geometry.base import Settings, SettingsError, about, check_settings
 from geometry.blade import Blade
 from geometry.section_table import read_sections
 from simulate.scene import Scene
+from simulate.scene.laws.table import STRAIN, STRESS, Curve
+from simulate.scene.tables import (
+    GROWTHS,
+    RADII,
+    SHIFTS,
+    SPEEDS,
+    Line,
+    Shift,
+    Thermal,
+    Z,
+    from_csv,
+)
 from workflow.many.design import Design
 
 SECTIONS = (WORKFLOW / "blades/rotor37-sections.csv").read_text()
@@ -84,7 +97,7 @@ def sections() -> Cases:
         return _table("point moved", shifted([i], far * np.eye(3)[draw(st.integers(0, 2))]))
 
     lost = lines_lost(SECTIONS, POINTS, 1, 2, 10, 40, 80)
-    changed = cell(SECTIONS, POINTS, NUMBERS) | lost | cut(SECTIONS)
+    changed = cell(SECTIONS, POINTS, NUMBERS) | lost | cut(SECTIONS) | long(SECTIONS, POINTS)
     known = contents(SECTIONS) | {
         "spaces": (SECTIONS.replace(",", " , ").encode(), "accept"),
         "semicolons": (SECTIONS.replace(",", ";").encode(), "refuse"),
@@ -96,6 +109,16 @@ def sections() -> Cases:
     }
     files = [_table(name, SECTIONS, must, data) for name, (data, must) in known.items()]
     return st.one_of(section(), spike(), changed.map(lambda c: _table(*c)), st.sampled_from(files))
+
+
+def _rows(text: str) -> list[list[str]]:
+    """Cells of the lines below the header, but for blank ones and comments."""
+    lines = (line for line in text.split("\n") if line.strip() and line.lstrip()[0] != "#")
+    return [line.split(",") for line in lines][1:]
+
+
+def _numeric(text: str) -> str:
+    return text.upper().replace("D", "E")
 
 
 ANGLES = [10 * i for i in range(36)]
@@ -112,13 +135,12 @@ def casings() -> Cases:
 
     def case(change: str, text: str, must: str = "either", data: Content | None = None) -> Case:
         def fault(scene: Any) -> str:
-            rows = [row.upper().replace("D", "E").split(",") for row in text.split("\n")[1:]]
             try:
-                held = [(float(angle), float(depth) * 1e-6) for angle, depth in filter(any, rows)]
+                held = [(float(angle), float(depth)) for angle, depth in _rows(_numeric(text))]
             except ValueError:
                 return "accepted, but a line holds no two numbers"
             table = scene.casing.table
-            same = np.allclose(held, np.transpose([table.theta_deg, table.depth_m]), rtol=1e-12)
+            same = np.allclose(held, np.transpose([table.theta_deg, table.depth_um]), rtol=1e-12)
             return "" if same else "its depths are not those of the file"
 
         files = {"t.csv": text.encode() if data is None else data}
@@ -132,7 +154,7 @@ def casings() -> Cases:
         "radians": (CASING.replace("theta_deg", "theta").encode(), "refuse"),
     }
     files = [case(name, CASING, must, data) for name, (data, must) in known.items()]
-    changed = other_line(CASING, range(len(ANGLES) + 1), odd)
+    changed = other_line(CASING, range(len(ANGLES) + 1), odd) | long(CASING, range(len(ANGLES)))
     return changed.map(lambda change: case(*change)) | st.sampled_from(files)
 
 
@@ -162,8 +184,7 @@ def designs() -> Cases:
 
     def case(change: str, text: str, must: str) -> Case:
         def fault(design: Any) -> str:
-            rows = [row.split(",") for row in text.split("\n")[1:]]
-            rows = [row for row in rows if "".join(row).strip() or len(row) > 1]  # no blank line
+            rows = _rows(text)
             scenes = [row.scene for row in design.rows()]
             if len(scenes) != len(rows):
                 return f"{len(scenes)} rows of {len(rows)}"
@@ -187,11 +208,44 @@ def designs() -> Cases:
     odd = ["010", "1:30", "1_000", "nan", "[1]", "x", "-1", "1e3", "5", "!!int 5", "&a [*a]"]
     names = ["", "blade.x", "x", "liner", "liner..E", "casing.harmonics[9].order", "rounds.x"]
     plain = st.text(st.characters(exclude_characters=',\n\r;"\t#'), max_size=8)
-    cells = cell(DESIGN, [1, 2, 3], [*odd, "[" * 50], plain)
+    cells = cell(DESIGN, [1, 2, 3], [*odd, "[" * 50], plain) | long(DESIGN, [1, 2, 3])
     columns = cell(DESIGN, [0], names, plain)
     return cells.map(lambda c: case(*c, "either")) | columns.map(lambda c: case(*c, "refuse"))
 
 
+TABLES = {  # by the model of the table: header and rows; readers, columns and units as of casings
+    Thermal: (SPEEDS, GROWTHS, "speed_rpm,growth_um\n0,0\n3000,12.5\n6000,40\n"),
+    Shift: (SPEEDS, SHIFTS, "speed_over_f1,shift_um\n0,0\n0.2,-12.5\n0.4,40\n"),
+    Line: (Z, RADII, "z_mm,r_mm\n-20,250\n10,240.5\n80,230\n"),
+    Curve: (STRAIN, STRESS, "strain,stress_MPa\n0,0\n0.1,30\n0.5,70\n"),
+}
+
+
+def other_tables() -> Cases:
+    """Growth, shift, shape of the casing and curve of a law: cells and lines changed."""
+
+    def case(model: type, change: str, text: str, must: str = "either") -> Case:
+        of_file = from_csv(model, *TABLES[model][:2])
+
+        def read(folder: Path) -> Any:
+            holder = create_model("Scene", __base__=Settings, table=Annotated[model, of_file])
+            return check_settings(holder, {"table": folder / "t.csv"}, "scene.yaml").table
+
+        def fault(table: Any) -> str:
+            held = [[float(cell) for cell in row] for row in _rows(_numeric(text))]
+            columns = [column for _, column in table if column is not None]
+            return "" if np.array_equal(np.transpose(columns), held) else "holds other numbers"
+
+        return Case("table", change, {"t.csv": text.encode()}, read, must, fault)
+
+    def of(model: type) -> Cases:
+        text, rows = TABLES[model][2], [1, 2, 3]
+        changed = cell(text, rows, NUMBERS) | long(text, [0, *rows]) | cut(text)
+        return changed.map(lambda change: case(model, *change))
+
+    return st.sampled_from(sorted(TABLES, key=str)).flatmap(of)
+
+
 def table_cases() -> Cases:
     """All of these."""
-    return st.one_of(sections(), sections(), casings(), designs())
+    return st.one_of(sections(), sections(), casings(), designs(), other_tables())

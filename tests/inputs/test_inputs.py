@@ -1,9 +1,15 @@
 """Whatever people write is read as it says, or refused in lines that name the file.
 
-Hypothesis changes valid blades, scenes, configurations, tables, meshes and CAD files; the draws are
-always the same. No input may end in a traceback, take ten seconds, or be read as something else.
+Hypothesis changes valid blades, scenes, configurations, tables, meshes, CAD files, matrices, models
+and results; the draws are always the same. No input may end in a traceback or a crash, take ten
+seconds or two gigabytes, or be read as something else.
 """
 
+import os
+import re
+from pathlib import Path
+
+import numpy as np
 import pytest
 from case import Case, judge
 from tester import count
@@ -46,17 +52,41 @@ def test_the_tester_sees_each_kind_of_fault(tmp_path, answer, must, fault, verdi
     assert judge(case, tmp_path).name == verdict
 
 
-def test_the_tester_stops_what_hangs(tmp_path, monkeypatch):
-    monkeypatch.setattr("case.TIME", 0.05)
+def busy(folder):
+    while True:
+        try:
+            sum(range(1000))
+        except Exception:
+            continue
 
-    def read(folder):
-        while True:
-            try:
-                sum(range(1000))
-            except Exception:
-                continue
 
-    assert judge(Case("made", "made", {}, read, "either"), tmp_path).name == "hang"
+def backtracking(folder):
+    return re.fullmatch(r"(x+x+)+y", 40 * "x")
+
+
+def waiting(folder):
+    return Path(folder, "pipe").read_text()
+
+
+@pytest.mark.parametrize("read", [busy, backtracking, waiting])
+def test_the_tester_stops_what_hangs(tmp_path, monkeypatch, read):
+    monkeypatch.setattr("case.TIME", 1)
+    monkeypatch.setattr("case.WAITS", 3)
+    case = Case("made", "made", {"pipe": "pipe"}, read, "either")
+    assert judge(case, tmp_path).name == "hang"
+
+
+@pytest.mark.parametrize(
+    ("read", "verdict"),
+    [
+        (lambda folder: np.ones(100 * 2**27), "memory"),  # 100 GB
+        (lambda folder: [bytearray(2**20) for _ in range(2**12)], "memory"),
+        (lambda folder: np.ones(2**27).sum(), "right"),
+        (lambda folder: os.abort(), "crash"),
+    ],
+)
+def test_the_tester_sees_what_takes_memory_or_crashes(tmp_path, read, verdict):
+    assert judge(Case("made", "made", {}, read, "either"), tmp_path).name == verdict
 
 
 @pytest.mark.parametrize(

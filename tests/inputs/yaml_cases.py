@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import yaml
 from case import Case
-from changes import contents, cut, line
+from changes import LONG, contents, cut, line, long
 from hypothesis import strategies as st
 from yaml_oracle import differ, differs, leaves, says
 
@@ -78,6 +78,7 @@ ODD = [
     *("", "{}", "[]", "[1]", "{a: 1}", "''", "-", "?", "|", ">", "&", "*", "&a [*a]", "*a", "%"),
     *("@", "`", "=", "<<", "true", "-1", "0", "-0.0", "1e-400", "1e308", "+5", ".5", "5.", "1e5"),
     *("1.e+3", '"\\u0000"', '"a\\nb"', "../x", "/etc/passwd", "a(b", "{x}", "a+b", "a: b: c"),
+    *("1" * 131_072, "1_" * 65_536, "1:" * 65_536, *LONG.values()),
     *("1" * 5000, "[" * 3000, "[" * 40 + "]" * 40, "1" * 400, "x" * 3000, "- 1", "\t1", "#", "!"),
 ]
 # keys, and factors on their values that nobody means: another unit, or a decimal point lost
@@ -127,7 +128,7 @@ HEAVY = {  # what would take a parser's time or memory, or its stack
     + "\n".join(
         f"{chr(98 + i)}: &{chr(98 + i)} [{','.join(['*' + chr(97 + i)] * 9)}]" for i in range(9)
     ),
-    "deep list": "a: " + "[" * 3000,
+    "deep list": "a: " + "[" * 100_000,
     "deep mapping": "a: " + "{a: " * 2000,
     "deep indents": "\n".join("  " * i + "a:" for i in range(400)),
     "many values": "a: [" + "1," * 25_000 + "]",
@@ -185,6 +186,7 @@ def of_text(seed: Seed) -> Cases:
     lines = seed.text.split("\n")
     used = [i for i, line in enumerate(lines) if line.strip() and line.lstrip()[0] != "#"]
     changed = line(seed.text, used, "lost", "indented", "exchanged") | cut(seed.text)
+    changed |= long(seed.text, used)
     return changed.map(lambda change: seed.case(*change))
 
 
