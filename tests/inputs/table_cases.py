@@ -207,7 +207,7 @@ def designs() -> Cases:
 
     odd = ["010", "1:30", "1_000", "nan", "[1]", "x", "-1", "1e3", "5", "!!int 5", "&a [*a]"]
     names = ["", "blade.x", "x", "liner", "liner..E", "casing.harmonics[9].order", "rounds.x"]
-    plain = st.text(st.characters(exclude_characters=',\n\r;"\t#'), max_size=8)
+    plain = st.text(st.characters(codec="utf-8", exclude_characters=',\n\r;"\t#'), max_size=8)
     cells = cell(DESIGN, [1, 2, 3], [*odd, "[" * 50], plain) | long(DESIGN, [1, 2, 3])
     columns = cell(DESIGN, [0], names, plain)
     return cells.map(lambda c: case(*c, "either")) | columns.map(lambda c: case(*c, "refuse"))
