@@ -14,7 +14,16 @@ from numpy.typing import NDArray
 from scipy.io import mminfo, mmread
 from scipy.sparse import csr_matrix, diags, load_npz
 
-from geometry.base import MeshError, UserError, about, number, read_text, require, require_file
+from geometry.base import (
+    MeshError,
+    UserError,
+    about,
+    number,
+    read_text,
+    require,
+    require_file,
+    shown,
+)
 
 DIRECTIONS = 100  # more than a node has
 
@@ -53,7 +62,7 @@ def read_matrix(path: Path, letter: str) -> FileMatrix:
             raise
         except Exception as error:  # readers raise various exceptions for damaged files
             raise MeshError(
-                f"cannot be read as {path.suffix} ({error!r}): is it cut short?"
+                f"cannot be read as {path.suffix} ({shown(error)}): is it cut short or damaged?"
             ) from None
         require(
             (
@@ -95,8 +104,9 @@ def _market(path: Path) -> csr_matrix:
     lines = enumerate(text.splitlines(), 1)
     size = next(place for place, line in lines if line.strip() and line[:1] != b"%")
     if layout == "array":
-        body = b"".join(text.splitlines(keepends=True)[size:])
-        np.array(body.split(), dtype=float)  # refuses what mmread would end a number at
+        body = b"".join(text.splitlines(keepends=True)[size:]).split()
+        require((rows * columns <= 2 * len(body), f"has {len(body)} numbers, too few for its head"))
+        np.array(body, dtype=float)  # refuses what mmread would end a number at
         return csr_matrix(mmread(BytesIO(text)))
     i, j, *values = _columns(path, comments="%", skip=size)
     require(
@@ -198,11 +208,16 @@ def _placed(
 ) -> csr_matrix:
     """A matrix of ``values`` (n,) in rows ``i`` and columns ``j``, from 1."""
     places = np.array([i, j])
+    rows = shape[0] if shape else places[0].max()
     require(
         (
             places.min() >= 1 and np.all(places == np.round(places)),
             f"an entry is in row or column {places.min():g}: they are whole numbers, counted from "
             "1",
+        ),
+        (
+            rows <= len(values),
+            f"has {rows:.12g} rows, and {len(values)} entries: each row has one at least",
         ),
     )
     return csr_matrix((values, places.astype(int) - 1), shape)

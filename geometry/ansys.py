@@ -45,6 +45,7 @@ LABELS = {
     "NUXY": "poisson_ratio",
     "DENS": "density",
 }
+LARGEST = 10**8  # number of a node
 FORMAT = re.compile(r"\((\d*)i(\d+),(\d+)e(\d+)\.\d+(?:e\d+)?\)")  # of a block of nodes
 # TB of elastic laws; with others, as of plasticity, a material may be isotropic
 NOT_ISOTROPIC = re.compile(r"ANEL|HYPER|MOON|OGDEN|ELAS.*(ORTH|AEL)")
@@ -82,7 +83,11 @@ def read_archive(path: Path) -> FileMesh:
     archive = Archive(path, parse_vtk=False)
     require_all("nodes", nodes, len(numbers), EXPORT)
     require_all("elements", elements, len(archive.elem), EXPORT)
-    row = np.full(int(numbers.max()) + 1, ABSENT)
+    most = int(numbers.max())
+    require(
+        (most <= LARGEST, f"has node {most}, allowed up to {LARGEST}: NUMCMP, NODE, and export")
+    )
+    row = np.full(most + 1, ABSENT)
     row[numbers] = np.arange(len(numbers))
     row[0] = ABSENT
     solids, faces, others = _sorted(archive, row)

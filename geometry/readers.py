@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from geometry.abaqus import read_deck
 from geometry.ansys import EXPORT, read_archive
-from geometry.base import MeshError, UserError, require, require_file
+from geometry.base import MeshError, UserError, require, require_file, shown
 from geometry.file_mesh import FileMesh, Physics, as_tetrahedra, require_all
 from geometry.nastran import read_bulk
 from geometry.split import NODES, Block, upright
@@ -105,10 +105,8 @@ def read_mesh_file(path: str | Path) -> FileMesh:
     except UserError:
         raise
     except Exception as error:  # readers raise various exceptions for damaged files
-        raise MeshError(
-            f"cannot be read as {path.suffix} ({error!r}): "
-            f"{ANEW.get(path.suffix, 'export it anew')}"
-        ) from None
+        anew = ANEW.get(path.suffix, "export it anew")
+        raise MeshError(f"cannot be read as {path.suffix} ({shown(error)}): {anew}") from None
     finite = mesh.points.shape[1:] == (3,) and np.isfinite(mesh.points).all()
     require((finite, "each of its nodes must have three finite coordinates"))
     return mesh

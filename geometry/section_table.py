@@ -24,6 +24,7 @@ from geometry.outline import check_line, check_outline, enclosed
 HEADER = ["section", "x", "y", "z"]
 THINNEST = 5e-3  # of the chord; tips of fans have 2e-2
 FEWEST_POINTS, MOST_POINTS = 16, 4000  # of a section
+LONGEST_NAME = 100  # characters
 STATIONS = 17  # of a side between its cuts; twice as many change the volume by 1e-4
 APART = 1e-4  # m, least radial distance between two sections
 DENSE = 4000  # points of a side from which the stations are interpolated
@@ -132,7 +133,8 @@ def _read(path: str | Path) -> dict[str, NDArray[np.float64]]:
     (number, header), *rows = list(csv_rows(path)) or [(1, [])]
     require((header == HEADER, f"the header must be {','.join(HEADER)}"), line=number)
     for line, (name, *values) in rows:
-        require((name.isprintable(), f"section {shown(name)}: is no name"), line=line)
+        named = name.isprintable() and len(name) <= LONGEST_NAME
+        require((named, f"section {shown(name)}: is no name"), line=line)
         outlines.setdefault(name, []).append(numbers(values, HEADER[1:], line))
     require(
         (len(outlines) > 1, f"{len(outlines)} section(s); needs two or more, hub to tip"),

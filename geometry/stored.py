@@ -30,7 +30,7 @@ from geometry.elsewhere import SYMMETRIC
 FORMAT = 1
 OVERHEAD = 1 << 14  # bytes of HDF5 for a variable beside its values, at most
 DEFLATED = 1100  # bytes of values for one of their file, at most, compressed as zlib does
-UNWRITTEN = 1 << 26  # bytes of values that a file may declare of any size, as xarray does of axes
+UNWRITTEN = 1 << 20  # bytes of values that a file may declare of any size, as xarray does of axes
 CSR = ("data", "indices", "indptr")  # arrays of a sparse matrix
 
 

@@ -15,7 +15,18 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eigh
 
-from geometry.base import Fault, Provenance, code_hash, failed, file_hash, refuse, require, sealed
+from geometry.base import (
+    UNREADABLE,
+    Fault,
+    Provenance,
+    code_hash,
+    failed,
+    file_hash,
+    refuse,
+    require,
+    sealed,
+    shown,
+)
 from geometry.blade import EnrichedBasis, settings_of_basis
 from geometry.elsewhere import OFF_LINE, SYMMETRIC, tip_checks
 from geometry.stored import netcdf
@@ -84,7 +95,7 @@ def _elsewhere(path: Path) -> bool:
     try:
         with netcdf(path) as file:
             return "M" in file.variables and not {"provenance", "format"} & set(file.attrs)
-    except (OSError, KeyError, TypeError, ValueError):
+    except UNREADABLE:
         return False
 
 
@@ -115,10 +126,8 @@ def _values(path: str | Path) -> dict[str, Any]:
     try:
         with netcdf(path) as file:
             variables = {name: file[name].values for name in dims if name in file.variables}
-    except (OSError, ValueError) as error:
-        raise RomError(
-            f"cannot be read as NetCDF 4 ({str(error).splitlines()[0]})", file=path
-        ) from None
+    except UNREADABLE as error:
+        raise RomError(f"cannot be read as NetCDF 4 ({shown(str(error))})", file=path) from None
     if missing := [name for name in dims if name not in (*variables, *OPTIONAL)]:
         raise RomError(f"lacks {', '.join(missing)}: {PAGE} says what each is", file=path)
     require(
@@ -179,11 +188,11 @@ def _shape_faults(rom: Rom, power: NDArray) -> list[str]:
         ),
         (
             list(np.atleast_1d(power)) == [2 * p for p in range(len(rom.K))],
-            f"power: {power}: needs 0, 2, 4, ..., one for each K",
+            f"power: {shown(power.tolist())}: needs 0, 2, 4, ..., one for each K",
         ),
         (
             rom.directions in ALLOWED,
-            f"directions: {rom.directions}: need {NAMES}, the first or more, or radial and axial",
+            f"directions: {shown(rom.directions)}: need {NAMES}, the first or more, or radial and axial",
         ),
         (
             len(rom.xi) > 1 and 0 < n_c * len(rom.directions) <= n,

@@ -20,6 +20,7 @@ from geometry.base.errors import (
 )
 from geometry.base.files import (
     AROUND,
+    UNREADABLE,
     alone,
     intact,
     legible,

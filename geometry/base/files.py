@@ -20,7 +20,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from geometry.base.errors import WriteError, require
+from geometry.base.errors import WriteError, require, shown
 from geometry.base.provenance import (
     ProvenanceError,
     anew,
@@ -42,6 +42,7 @@ AROUND = {  # before and after the hash, by suffix; other files have no seal
     ".kernel": (b"\nsha256 ", b"\n"),
 }
 DIGITS = 64  # of the hash in a seal
+UNREADABLE = OSError, KeyError, TypeError, ValueError, RuntimeError, MemoryError  # of libraries
 PART = 1 << 24  # bytes of a file that are in memory at a time
 
 
@@ -262,8 +263,8 @@ def legible(path: str | Path, kind: str, remedy: str | None = None) -> Iterator[
     """
     try:
         yield intact(path, remedy)
-    except (OSError, KeyError, TypeError, ValueError) as error:
-        reason = " ".join(str(error).split())
+    except UNREADABLE as error:
+        reason = shown(" ".join(str(error).split()))
         raise ProvenanceError(
             f"is no {kind} ({reason}); {remedy or anew(path)}", file=path
         ) from None

@@ -64,6 +64,8 @@ def whole(path: str | Path) -> list[ComputedRow]:
         When a row is refused, with its reason; or the table cannot be read.
     """
     found = read_json(path)
+    if not isinstance(found, list) or not all(isinstance(row, dict) for row in found):
+        raise UserError("is no table of an experiment", file=path)
     for row in found:
         if "refused" in row:
             text = f"{row['refused']}: mend the row, and run the experiment again"
