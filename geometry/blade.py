@@ -219,8 +219,10 @@ class Interface(Settings):
         le=64,
         description="Patches of the tip: hat functions along the chord, for its displacement",
     )
-    across: Literal[1, 2] = Field(
+    across: int = Field(
         default=2,
+        ge=1,
+        le=2,
         description="Rows across the thickness: 2, the edges behind and ahead in rotation, linear "
         "between; 1, their mean, without lean and torsion of the tip",
     )

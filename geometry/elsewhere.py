@@ -2,7 +2,7 @@
 
 from math import pi
 from pathlib import Path, PurePath
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -132,8 +132,8 @@ class MatricesElsewhere(SettingsFile):
 
     full_matrices: FullMatrices = Field(description="Matrices made elsewhere")
     patches: int = Field(default=16, ge=2, le=64, description="Patches of the tip")
-    across: Literal[1, 2] | None = Field(
-        default=None, description="Rows across the thickness: 2, or 1 where S is given"
+    across: int | None = Field(
+        default=None, ge=1, le=2, description="Rows across the thickness: 2, or 1 where S is given"
     )
     max_speed_rpm: float | None = Field(
         default=None, gt=0, description="Omega_m (rpm), where K is given at rest alone"

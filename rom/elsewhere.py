@@ -192,7 +192,8 @@ def _shape_faults(rom: Rom, power: NDArray) -> list[str]:
         ),
         (
             rom.directions in ALLOWED,
-            f"directions: {shown(rom.directions)}: need {NAMES}, the first or more, or radial and axial",
+            f"directions: {shown(rom.directions)}: need {NAMES}, the first or more, or radial and "
+            "axial",
         ),
         (
             len(rom.xi) > 1 and 0 < n_c * len(rom.directions) <= n,

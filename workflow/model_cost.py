@@ -13,6 +13,7 @@ from pathlib import Path
 from geometry.base import MeshError, Say, duration, memory_of_machine, require
 from geometry.blade import Blade
 
+MESH = 10_000  # nodes, of a mesh that is not there yet
 SCALE = 1e5  # nodes: of each law the number there, and its exponent
 LAWS = {
     "assembly": (16.0, 1.0),  # s, M, K and S, and their file

@@ -32,7 +32,7 @@ from simulate.sweeps.sweep import sweep
 
 SEED = 89
 SHORTEST, LONGEST = 0.1, 30.0  # s, told, of a scene that is run
-MODELS = [("paper", "r"), ("paper", "rt"), ("rotor67", "rtz")]
+MODELS = [("paper", "r"), ("paper", "rt")]
 HEADS = ("scene", "seconds", "told", "GB", "told GB", "contact", "scheme", "friction", "strips")
 WITHIN = {"median": (0.5, 1.5), "nine in ten": (0.9, 3.0)}  # share of the scenes, and factor
 VERIFY = [None, "peaks", "every", {"share": 0.0}, {"share": 0.5, "predictable": True}]
@@ -107,31 +107,23 @@ def drawn(draw: Draw) -> tuple[str, dict[str, Any]]:
     }
 
 
-def extremes() -> Iterator[tuple[str, str, dict[str, Any]]]:
-    """Name, directions and scene of what the cost once was told worst of."""
-    draw = Draw(SEED)
-    directions, usual = "rt", {}
-    while usual.get("blade") != "paper" or directions != "rt" or "contact" in usual:
-        directions, usual = drawn(draw)
-    usual |= {"integrator": {"scheme": "piecewise-exact", "steps_per_round": 2048}, "rounds": 10}
-    usual["record"] = {"samples_per_round": 512, "spectrum_rounds": 2}
-    usual["speeds"] = {"over_f1": [0.2, 0.25]}
-    usual.pop("peaks", None), usual.pop("verify", None)
-    many = usual["liner"] | {"strips": 256}
-    yield (
-        "friction, 256 strips",
-        "rt",
-        usual | {"liner": many, "contact": {"friction": 0.1}, "rounds": 3},
+def extremes() -> Iterator[tuple[str, str, Scene]]:
+    """Name, directions and scene of what the cost was once told worst of."""
+    usual = Scene.load("workflow/scenes/paper.yaml").but(
+        speeds={"over_f1": [0.2, 0.25]},
+        peaks=None,
+        rounds=4,
+        verify={"share": 0},
+        record__spectrum_rounds=2,
     )
+    yield "usual", "r", usual
+    friction = {"contact": {"friction": 0.1}, "liner__strips": 256}
+    yield "friction, 256 strips", "rt", usual.but(**friction)
     central = {"scheme": "central-difference", "fraction_of_limit": 0.5}
     far = {"over_f1": [0.001, 0.01, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5]}
-    yield (
-        "central differences, 500-fold speeds",
-        "rt",
-        usual | {"integrator": central, "speeds": far, "rounds": 3},
-    )
+    yield "central differences, 500-fold speeds", "r", usual.but(integrator=central, speeds=far)
     every = {"over_f1": {"first": 0.1, "last": 0.4, "count": 16}}
-    yield "every speed verified", "rt", usual | {"speeds": every, "verify": "every"}
+    yield "every speed verified", "r", usual.but(speeds=every, verify="every", rounds=20)
 
 
 def taken(scene: Scene, rom: Rom) -> Taken | str:
@@ -159,14 +151,24 @@ def taken(scene: Scene, rom: Rom) -> Taken | str:
     return found
 
 
+def cases(scenes: int, seed: int) -> Iterator[tuple[str, str, Scene]]:
+    """Name, directions and scene of the extremes, then of drawn ones without an end."""
+    yield from extremes()
+    draw = Draw(seed)
+    while True:
+        directions, values = drawn(draw)
+        try:
+            yield "drawn", directions, check_settings(Scene, values, "drawn")
+        except UserError:
+            continue
+
+
 def rows(scenes: int, seed: int) -> Iterator[list[Any]]:
     """A row of each scene that is not refused."""
     roms = {key: Rom.load(f"results/{key[0]}/rom-{key[1]}.nc") for key in MODELS}
-    draw, number = Draw(seed), 0
-    cases = [*extremes()]
-    while number < scenes + len(cases):
-        name, directions, values = cases[number] if number < len(cases) else ("drawn", *drawn(draw))
-        scene, rom = check_settings(Scene, values, name), roms[values["blade"], directions]
+    number = 0
+    for name, directions, scene in cases(scenes, seed):
+        rom = roms[scene.blade, directions]
         try:
             told = cost(scene, rom)
         except UserError:
@@ -175,9 +177,8 @@ def rows(scenes: int, seed: int) -> Iterator[list[Any]]:
             continue
         found = taken(scene, rom)
         if isinstance(found, str):
-            print("refused", found, file=sys.stderr)
             continue
-        number += 1
+        number += name == "drawn"
         yield [
             name if name != "drawn" else number,
             f"{found.seconds:.3g}",
@@ -191,14 +192,18 @@ def rows(scenes: int, seed: int) -> Iterator[list[Any]]:
             rom.n,
             rom.across,
             len(rom.directions),
-            told.all_steps,
+            f"{told.all_steps:.4g}",
             told.steps,
             scene.liner.nu,
             scene.rounds,
             told.speeds,
             scene.verify if isinstance(scene.verify, str) else scene.verify.share,
             bool(scene.peaks),
+            told.added,
+            scene.liner.footprint_mm,
         ]
+        if number == scenes:
+            return
 
 
 def main() -> None:

@@ -85,8 +85,9 @@ def _answer(case: Case, folder: Path, into: int) -> Never:
 
 def _ended(code: int) -> Verdict:
     """Verdict on a process that gave none."""
-    if -code in (signal.SIGXCPU, signal.SIGALRM):
-        return Verdict("hang", f"after {TIME} s of computing, or {WAITS} times that of waiting")
+    limits = {signal.SIGXCPU: f"{TIME} s of CPU", signal.SIGALRM: f"{WAITS * TIME} s of waiting"}
+    if -code in limits:
+        return Verdict("hang", f"after {limits[-code]}")
     return Verdict("crash", signal.strsignal(-code) or "" if code < 0 else "no answer")
 
 
