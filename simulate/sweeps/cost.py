@@ -17,18 +17,22 @@ from numpy.typing import NDArray
 from geometry.base import WARNING, duration, failed, memory_of_machine
 from geometry.tip import JUDGED
 from rom.model import Rom
-from simulate.contact.places import mean_footprint, rods_in_footprint
+from simulate.contact.gaps import gaps_at, given_gaps
+from simulate.contact.places import mean_footprint, rods_in_footprint, strip_xi
 from simulate.errors.neighbour import Neighbour
 from simulate.errors.neighbours import HALF, QUARTER, TWIN
 from simulate.marching import prepare
 from simulate.marching.setup import MAX_STEPS
-from simulate.scene import PEAKS, Liner, Record, Scene
+from simulate.scene import LEADING, PEAKS, Liner, Record, Scene
 
-STEP, MODE_ROW, ROD_STRIP = 1e-7, 3.5e-10, 4e-9  # s a step; and for each mode of a row, each rod
-PAIR, TRIPLE = 1e-10, 1e-11  # s a step, for each pair and each triple of rows of the contact
-SWEEP = 1.0  # s of a sweep: its files, its numbers
+STEP, MODE_ROW = 1e-7, 2.5e-10  # s a step; and for each mode of a row
+# of a step in contact, s: for itself and for each pair of strips that touch, by scheme
+CONTACT = {"piecewise-exact": (1.6e-6, 1.25e-8), "central-difference": (1e-7, 2e-9)}
+ROW, ROD = 5e-10, 1e-8  # s: for each mode of a row, and for each rod under a strip that touches
+TRAVELLING = 2.4  # times that, where the casing travels
+SWEEP = 0.9  # s of a sweep: its files, its numbers
 RUN = 0.01  # s a run: its set-up and its numbers
-START, HELD = 0.35e9, 3.0  # bytes of a process with its code; times the results that it holds
+START, HELD = 0.23e9, 3.0  # bytes of a process with its code; times the results that it holds
 LONG, MUCH = 3600.0, 0.5  # s, and share of the machine's memory, from which it is warned
 SINGLE, DOUBLE = 4, 8  # bytes
 FEW_RODS = 4096  # as few as serve for a limit
@@ -52,6 +56,8 @@ class Sizes(NamedTuple):
 
 USUAL = Sizes(n=60, across=1, radius=0.5, omega1=1500.0)
 USUAL_FOOTPRINT, USUAL_STEPS = 5e-3, 1e5  # m; of central differences in a revolution
+USUAL_CONTACT = 0.35  # of the time, and of the strips
+ANGLES = 720  # at which the casing is compared with the gaps
 
 
 @dataclass(frozen=True)
@@ -174,18 +180,29 @@ def _added(scene: Scene, sizes: Sizes, Omega: NDArray[np.float64]) -> int:
 
 
 def _of_step(scene: Scene, rom: Rom | None, sizes: Sizes, steps: float) -> float:
-    """Time of a step on one core, s."""
-    liner, rods = scene.liner, 0.0
-    strips = liner.m * sizes.across
-    rows = liner.m * (sizes.across + scene.contact.along)
-    if liner.law.touches:
-        footprint = mean_footprint(liner, rom) if rom else liner.footprint_m or USUAL_FOOTPRINT
-        passed = ceil(liner.nu / steps)
-        under = rods_in_footprint(footprint, sizes.radius, liner.nu)
-        rods = 1 + passed + max(under, passed)
-    implicit = scene.stepping.scheme == "piecewise-exact"
-    solved = PAIR * rows**2 + (TRIPLE * strips**3 if implicit else 0.0)
-    return STEP + MODE_ROW * sizes.n * rows + ROD_STRIP * strips * rods + solved
+    """Time of a step on one core, s: of the modes, and of the contact in a part of the steps."""
+    liner = scene.liner
+    entries = sizes.n * liner.m * (sizes.across + scene.contact.along)
+    free = STEP + MODE_ROW * entries
+    if not liner.law.touches:
+        return free
+    footprint = mean_footprint(liner, rom) if rom else liner.footprint_m or USUAL_FOOTPRINT
+    passed = ceil(liner.nu / steps)
+    rods = 1 + passed + max(rods_in_footprint(footprint, sizes.radius, liner.nu), passed)
+    touching, (once, pair) = _touching(scene, rom) * sizes.across, CONTACT[scene.stepping.scheme]
+    each = (once + ROW * entries) * (touching > 0) + ROD * rods * touching + pair * touching**2
+    return free + float(each.mean()) * (TRAVELLING if scene.casing.travelling else 1.0)
+
+
+def _touching(scene: Scene, rom: Rom | None) -> NDArray[np.float64]:
+    """Number of the strips (angles,) whose gap the whole casing takes up, of a blade at rest."""
+    m = scene.liner.m
+    if rom is None:
+        return USUAL_CONTACT * m * (np.linspace(0, 1, ANGLES) < USUAL_CONTACT)
+    Omega, theta = np.median(scene.speeds.omega(rom.f1)), np.linspace(0, 2 * np.pi, ANGLES)
+    inward = scene.casing.inward(theta, float(given_gaps(scene.gaps, rom, LEADING)))
+    gaps = gaps_at(scene.gaps, rom, strip_xi(rom, m), float(Omega))
+    return (inward > gaps[:, None]).sum(axis=0).astype(float)
 
 
 def _held(speeds: int, record: Record, liner: Liner, rounds: int, n: int) -> float:

@@ -8,7 +8,7 @@ from runs import swept
 from scenes import of_steps, scene
 
 from geometry.base import WARNING
-from simulate.sweeps.cost import cost
+from simulate.sweeps.cost import START, SWEEP, cost
 from simulate.sweeps.sweep import sweep
 
 
@@ -16,7 +16,9 @@ class Stopped(Exception):  # noqa: N818
     """Raised by a report to stop before the march."""
 
 
-@pytest.mark.parametrize(("verify", "times"), [({"predictable": True}, 2), ("every", 4)])
+@pytest.mark.parametrize(
+    ("verify", "times"), [({"predictable": True, "share": 0}, 2), ("every", 8)]
+)
 def test_steps_twins_and_half_steps_are_counted(coarse_rom, verify, times):
     speeds = {"over_f1": {"first": 0.2, "last": 0.38, "count": 10}}
     case = scene(integrator=of_steps(4096), speeds=speeds, rounds=20)
@@ -26,7 +28,7 @@ def test_steps_twins_and_half_steps_are_counted(coarse_rom, verify, times):
     assert line.startswith("10 speeds of 20 revolutions of 4096 steps: 8.2e+05")
     with_others = cost(case.but(verify=verify), coarse_rom)
     assert with_others.all_steps == times * found.all_steps
-    assert with_others.seconds == pytest.approx(times * found.seconds)
+    assert with_others.seconds - SWEEP == pytest.approx(times * (found.seconds - SWEEP))
 
 
 def test_rounds_of_runs_that_may_end_before_are_the_most(coarse_rom):
@@ -73,4 +75,4 @@ def test_time_and_memory_are_of_the_right_size(coarse_rom):
     runs = swept(case, coarse_rom)
     spent, found = process_time() - start, cost(case, coarse_rom)
     assert 0.2 < found.seconds / spent < 5
-    assert 0.5 < found.memory / runs.nbytes < 5
+    assert 0.5 < (found.memory - START) / runs.nbytes < 10

@@ -1,5 +1,7 @@
 """Speeds added around the peaks that a scene asks for; without orders until they are known."""
 
+import re
+
 import numpy as np
 import pytest
 from runs import swept
@@ -77,7 +79,7 @@ def test_a_sweep_without_orders_adds_speeds_around_every_peak_and_tells_how_many
     for peak in found:
         near = np.diff(speeds[max(peak.index - 1, 0) : peak.index + 2])
         assert near.max() <= WITHIN * (1 + 1e-9)
-    assert any("11 speeds and at most 40 more of 8 revolutions" in line for line in said)
+    assert any(re.search("11 speeds and some [0-9]+ more of 8 revolutions", line) for line in said)
     assert not any("more" in line for line in cost(scene(**RUB), coarse_rom).lines())
 
 
