@@ -28,7 +28,7 @@ def tell_before(scene: Scene, rom: Rom, report: Say) -> None:
     """Warn of doubtful values, and report the cost of the sweep."""
     check_scene(scene, rom)
     warn_of(doubts(scene, rom).values())
-    for line in cost(scene, rom, scene.speeds.count).lines():
+    for line in cost(scene, rom).lines():
         report(line)
 
 
