@@ -27,5 +27,7 @@ onstart:
         workflow.at_work = hold(Path(".snakemake/at-work"))
         if workflow.at_work is None:
             print(WARNING + ANOTHER, file=sys.stderr)
-        jobs = [(job.rule.name, job.wildcards) for job in workflow.dag.needrun_jobs()]
+        jobs = [
+            (job.rule.name, job.wildcards) for job in workflow.dag.needrun_jobs() if job.output
+        ]
         print(told(project, jobs), file=sys.stderr)

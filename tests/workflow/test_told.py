@@ -47,4 +47,9 @@ def test_the_line_has_the_sum_and_the_largest_memory(folder):  # noqa: F811
     line, modes = told(of_all, jobs), costs(of_all.blades.settings["paper"], MESH)["modes"]
     seconds = DRAWN.seconds + OTHER.seconds + modes.seconds
     assert line.startswith(f"3 jobs: some {duration(seconds)} on one core, ")
+    untold = told(of_all, [*jobs, job("experiment_block"), job("growth")])
+    assert (
+        untold
+        == line.replace("3", "5", 1) + ", without experiment_block, growth, which tell theirs"
+    )
     assert re.search(rf" {max(modes.memory, DRAWN.memory) / 1e9:.2g} GB at most$", line)

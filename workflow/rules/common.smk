@@ -15,7 +15,13 @@ from workflow.figures import table
 from workflow.targets import paper
 from workflow.targets.experiments import Experiments
 from workflow.targets.inputs import code_of, one_of, own_files
-from workflow.targets.messages import Stop, closing_words, in_one_line, without_sources, without_traceback
+from workflow.targets.messages import (
+    Stop,
+    closing_words,
+    in_one_line,
+    without_sources,
+    without_traceback,
+)
 from workflow.targets.project import Project, pictures
 from workflow.targets.told import told
 

@@ -6,8 +6,7 @@ are not there yet are taken to be of usual size. Code that is compiled for the f
 counted (16 s for each scheme and law).
 """
 
-from collections.abc import Iterable
-from pathlib import Path
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from geometry.base import UserError, duration
@@ -26,14 +25,18 @@ OF_MESH = {  # s and bytes of jobs for each node, beside ``START`` and ``EMPTY``
     "stress": (7e-4, 2e4),
     "gauges": (3e-4, 2e4),
 }
+UNTOLD = ("experiment_block", "growth", "interface", "paper_")  # begin rules of unknown cost
 RUNS = {"answers": 80.0, "pilot": 40.0}  # of the scene, that a job repeats or varies
 
 
-def told(project: Project, jobs: Iterable[tuple[str, Any]]) -> str:
+def told(project: Project, jobs: Sequence[tuple[str, Any]]) -> str:
     """Number, CPU time and memory of ``jobs``, by rule and wildcards, in a line."""
-    each = [_of_job(project, rule, wildcards) for rule, wildcards in jobs]
+    known = [job for job in jobs if not job[0].startswith(UNTOLD)]
+    each = [_of_job(project, *job) for job in known] or [Cost(0.0, 0.0)]
     seconds, memory = sum(cost.seconds for cost in each), max(cost.memory for cost in each)
-    return f"{len(each)} jobs: some {duration(seconds)} on one core, {memory / 1e9:.2g} GB at most"
+    line = f"{len(jobs)} jobs: some {duration(seconds)} on one core, {memory / 1e9:.2g} GB at most"
+    untold = sorted({rule for rule, _ in jobs if rule.startswith(UNTOLD)})
+    return f"{line}, without {', '.join(untold)}" if untold else line
 
 
 def _of_job(project: Project, rule: str, wildcards: Any) -> Cost:
@@ -68,9 +71,8 @@ def _sweep(project: Project, wildcards: Any) -> "CostOfSweep":
     """Cost of the sweep of a scene, on a usual model where there is none."""
     from simulate.sweeps.cost import cost  # compiled code, which other commands do not load
 
-    scene, path = project.scenes[wildcards.scene], Path(str(project.scenes.rom(wildcards)))
+    scene = project.scenes[wildcards.scene]
     try:
-        rom = Rom.load(path)
-    except UserError:  # it is made anew
-        rom = None
-    return cost(scene, rom)
+        return cost(scene, Rom.load(str(project.scenes.rom(wildcards))))
+    except UserError:  # the model is made anew, or refuses the scene, which its check says
+        return cost(scene, None)
