@@ -50,6 +50,6 @@ def test_the_line_has_the_sum_and_the_largest_memory(folder):  # noqa: F811
     untold = told(of_all, [*jobs, job("experiment_block"), job("growth")])
     assert (
         untold
-        == line.replace("3", "5", 1) + ", without experiment_block, growth, which tell theirs"
+        == line.replace("3", "5", 1) + ", without experiment_block, growth"
     )
     assert re.search(rf" {max(modes.memory, DRAWN.memory) / 1e9:.2g} GB at most$", line)
