@@ -13,7 +13,7 @@ from pathlib import Path
 from geometry.base import MeshError, Say, duration, memory_of_machine, require
 from geometry.blade import Blade
 
-MESH = 10_000  # nodes, of a mesh that is not there yet
+MESH, IN_SQUARE = 10_000, 16  # nodes, usual; on a square of an element's size of a thin blade
 SCALE = 1e5  # nodes: of each law the number there, and its exponent
 LAWS = {
     "assembly": (16.0, 1.0),  # s, M, K and S, and their file
@@ -96,6 +96,16 @@ def require_room(blade: Blade, nodes: int, say: Say) -> None:
         ),
         kind=MeshError,
     )
+
+
+def expected_nodes(blade: Blade, mesh: str | Path) -> int:
+    """Number of nodes of a mesh; of one that is not there yet some, by the size of its elements."""
+    if there := nodes_of(mesh):
+        return there
+    if not (blade.sections and blade.mesh):
+        return MESH
+    chord = (blade.sections.hub.chord_mm + blade.sections.tip.chord_mm) / 2
+    return round(IN_SQUARE * blade.sections.span_mm * chord / blade.mesh.element_size_mm**2)
 
 
 def nodes_of(mesh: str | Path) -> int:

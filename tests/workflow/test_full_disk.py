@@ -9,6 +9,8 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+from fem.petsc import MPI
+
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
@@ -17,6 +19,10 @@ from refused import refused
 from scenes import SCENE
 from test_kills import require_same_arrays
 
+import ufl
+from dolfinx.mesh import create_unit_cube
+
+from fem import forms
 from fem.fields import Fields, Stress
 from fem.matrices import Matrices
 from geometry.base import WriteError, require_writable, write_json
@@ -191,3 +197,18 @@ def test_a_job_on_a_full_disk_fails_in_one_line_and_runs_when_there_is_room(
     (disk.folder / "filler").unlink()
     full.run(*rule, target)
     require_same_arrays(vars(RomCheck.load(blade / "rom-check-r.nc")), vars(right))
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("room", [0, 5_000, 40_000, 60_000])
+def test_forms_that_a_full_disk_has_no_room_for_are_compiled_when_it_has(disk, room, monkeypatch):
+    """The source, the object or the library is cut short, and none of them is taken for whole."""
+    monkeypatch.setattr(forms, "FOLDER", disk.folder / "forms")
+    disk.fill(room)
+    volume = 1.0 * ufl.dx(create_unit_cube(MPI.COMM_SELF, 1, 1, 1))
+    error = refused(WriteError, forms.compiled, volume)
+    assert error.file == str(forms.FOLDER) and "XDG_CACHE_HOME" in error.text
+    (disk.folder / "filler").unlink()
+    forms.compiled(volume)
+    (ended,) = forms.FOLDER.glob("*.c.cached")
+    assert {path.name.split(".")[0] for path in forms.FOLDER.iterdir()} == {ended.name[:-9]}

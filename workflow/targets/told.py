@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from geometry.base import UserError, duration
 from rom.model import Rom
-from workflow.model_cost import EMPTY, MESH, START, Cost, costs, nodes_of
+from workflow.model_cost import EMPTY, MESH, START, Cost, costs, expected_nodes
 from workflow.targets.project import Project
 
 if TYPE_CHECKING:
@@ -43,7 +43,7 @@ def _of_job(project: Project, rule: str, wildcards: Any) -> Cost:
     """Cost of a job."""
     name, scene = wildcards.get("blade"), wildcards.get("scene")
     blade = project.blades.settings[name] if name in project.blades.meshed else None
-    nodes = nodes_of(f"results/{name}/blade.msh") or MESH
+    nodes = expected_nodes(blade, f"results/{name}/blade.msh") if blade else MESH
     if blade and rule in (of_model := costs(blade, nodes)):
         return of_model[rule]
     if rule in OF_MESH:
