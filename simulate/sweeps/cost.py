@@ -72,8 +72,13 @@ class Cost:
     runs_at_speeds: float  # with their second runs
     runs: float  # all
     all_steps: float  # of all runs
-    seconds: float  # on one core
+    seconds: float  # of them, on one core
     memory: float  # bytes, of the process that holds all results
+
+    @property
+    def total(self) -> float:
+        """Time of a sweep of its own, s, on one core."""
+        return SWEEP + self.seconds
 
     def lines(self, memory: float | None = None) -> list[str]:
         """Cost, in a line; a warning where that is much.
@@ -86,7 +91,7 @@ class Cost:
         more = f" and some {self.added} more" if self.added else ""
         said = (
             f"{self.speeds} speeds{more} of {rounds} of {self.steps:.6g} steps{second_runs}: "
-            f"{self.all_steps:.2g} steps, some {duration(self.seconds)} on one core, "
+            f"{self.all_steps:.2g} steps, some {duration(self.total)} on one core, "
             f"{self.memory / 1e9:.2g} GB of memory"
         )
         memory = memory or memory_of_machine()
@@ -130,7 +135,7 @@ def cost(scene: Scene, rom: Rom | None, speeds: int | None = None) -> Cost:
         runs_at_speeds=speeds * each,
         runs=runs,
         all_steps=all_steps,
-        seconds=SWEEP + all_steps * _of_step(scene, rom, sizes, steps) + RUN * runs,
+        seconds=all_steps * _of_step(scene, rom, sizes, steps) + RUN * runs,
         memory=START
         + HELD * _held(speeds + added, scene.record, scene.liner, scene.rounds, sizes.n),
     )
