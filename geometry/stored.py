@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import MISSING, Field, dataclass, field, fields
 from io import FileIO
+from mmap import ACCESS_READ, mmap
 from pathlib import Path
 from typing import Any, ClassVar, Self, dataclass_transform
 
@@ -31,6 +32,7 @@ FORMAT = 1
 OVERHEAD = 1 << 14  # bytes of HDF5 for a variable beside its values, at most
 DEFLATED = 1100  # bytes of values for one of their file, at most, compressed as zlib does
 UNWRITTEN = 1 << 20  # bytes of values that a file may declare of any size, as xarray does of axes
+HEAP, ENTRY = b"GCOL\1\0\0\0", 16  # of HDF5: begin of a heap; bytes of it, and of each entry
 CSR = ("data", "indices", "indptr")  # arrays of a sparse matrix
 
 
@@ -184,6 +186,8 @@ def netcdf(path: str | Path) -> Iterator[xr.Dataset]:
         When it is none, or declares more values: a file of two kilobytes may declare terabytes,
         which are zeros where they are read.
     """
+    with open(path, "rb") as file, mmap(file.fileno(), 0, access=ACCESS_READ) as data:
+        _require_heaps_that_end(data)
     sizes = [0]
     with h5py.File(path, "r") as file:
         file.visititems(lambda _, of: sizes.append(getattr(of, "nbytes", 0)))
@@ -214,6 +218,24 @@ def opened(
     with read(path, kind) as dataset:
         require_format(dataset.attrs, FORMAT, path)
         yield dataset, Provenance.parse(dataset.attrs.get("provenance"), path)
+
+
+def _require_heaps_that_end(data: mmap) -> None:
+    """Refuse a heap of texts in which HDF5 would go round for ever.
+
+    Each entry leads to the next by its length: index (2 bytes, 0 of free room), 6 bytes, length
+    (8), data to a multiple of 8; the length of free room is its whole.
+    """
+    at = data.find(HEAP)
+    while at >= 0:
+        place, end = at + ENTRY, at + int.from_bytes(data[at + 8 : at + ENTRY], "little")
+        while place + ENTRY <= end:
+            length = int.from_bytes(data[place + 8 : place + ENTRY], "little")
+            free = data[place : place + 2] == bytes(2)
+            step = length if free else ENTRY + length + -length % 8
+            require((ENTRY <= step <= end - place, "a heap is damaged"), kind=ValueError)
+            place += step
+        at = data.find(HEAP, at + 1)
 
 
 def _stored_fields(owner: Any) -> list[Field]:

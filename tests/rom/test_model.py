@@ -10,7 +10,7 @@ from refused import refused
 from scipy.linalg import eigvalsh
 
 from geometry.base import Provenance, ProvenanceError, code_hash, seal
-from geometry.stored import FORMAT, write
+from geometry.stored import ENTRY, FORMAT, HEAP, write
 from rom.elsewhere import read_elsewhere
 from rom.model import CODE, DIRECTIONS, Rom, RomError, require_letters
 from simulate.errors.model_errors import ModelErrors
@@ -47,6 +47,18 @@ def test_a_file_that_declares_more_than_it_holds_is_not_read(tmp_path, chunks):
     refused(RomError, read_elsewhere, path, "mine", match=r"declares 5.12e\+10 bytes")
     seal(path)
     refused(ProvenanceError, Rom.load, path, match=r"declares 5.12e\+10 bytes")
+
+
+@pytest.mark.parametrize("entry", [bytes(16), b"\1" + bytes(7) + b"\xf0" + b"\xff" * 7])
+def test_a_heap_of_texts_without_an_end_is_not_read(rom, tmp_path, entry):
+    """HDF5 would read its first entry for ever."""
+    path = tmp_path / "rom.nc"
+    rom.save(path)
+    data = path.read_bytes()
+    at = data.index(HEAP) + ENTRY
+    path.write_bytes(data[:at] + entry + data[at + ENTRY :])
+    seal(path)
+    refused(ProvenanceError, Rom.load, path, match="a heap is damaged")
 
 
 def test_file_explains_itself(rom, tmp_path):
