@@ -27,10 +27,10 @@ from simulate.scene import LEADING, PEAKS, Liner, Record, Scene
 
 STEP, MODE_ROW = 1e-7, 2.5e-10  # s a step; and for each mode of a row
 # of a step in contact, s: for itself and for each pair of strips that touch, by scheme
-CONTACT = {"piecewise-exact": (1.6e-6, 1.25e-8), "central-difference": (1e-7, 2e-9)}
+CONTACT = {"piecewise-exact": (1.4e-6, 1.1e-8), "central-difference": (1e-7, 1.5e-9)}
 ROW, ROD = 5e-10, 1e-8  # s: for each mode of a row, and for each rod under a strip that touches
-TRAVELLING = 2.4  # times that, where the casing travels
-SWEEP = 0.9  # s of a sweep: its files, its numbers
+TRAVELLING, FRICTION = 2.4, 1.8  # times that, where the casing travels, and with friction
+SWEEP = 1.0  # s of a sweep: its files, its numbers
 RUN = 0.01  # s a run: its set-up and its numbers
 START, HELD = 0.23e9, 3.0  # bytes of a process with its code; times the results that it holds
 LONG, MUCH = 3600.0, 0.5  # s, and share of the machine's memory, from which it is warned
@@ -196,7 +196,9 @@ def _of_step(scene: Scene, rom: Rom | None, sizes: Sizes, steps: float) -> float
     rods = 1 + passed + max(rods_in_footprint(footprint, sizes.radius, liner.nu), passed)
     touching, (once, pair) = _touching(scene, rom) * sizes.across, CONTACT[scene.stepping.scheme]
     each = (once + ROW * entries) * (touching > 0) + ROD * rods * touching + pair * touching**2
-    return free + float(each.mean()) * (TRAVELLING if scene.casing.travelling else 1.0)
+    more = TRAVELLING if scene.casing.travelling else 1.0
+    more *= 1.0 if scene.contact.friction is None else FRICTION
+    return free + more * float(each.mean())
 
 
 def _touching(scene: Scene, rom: Rom | None) -> NDArray[np.float64]:
