@@ -19,7 +19,7 @@ from platformdirs import user_cache_path
 import ufl
 from dolfinx import fem
 
-from geometry.base import WriteError, alone
+from geometry.base import WriteError, alone, shown
 
 FOLDER = user_cache_path("tiprub") / "forms"
 
@@ -43,7 +43,7 @@ def _options() -> Iterator[dict[str, Path]]:
     Raises
     ------
     WriteError
-        When the compiler fails: mostly it finds no room.
+        When the compiler fails, mostly as it finds no room, or what it made cannot be loaded.
     """
     try:
         with alone(FOLDER) as locked:
@@ -53,10 +53,10 @@ def _options() -> Iterator[dict[str, Path]]:
                 _remove_unfinished()
             yield {"cache_dir": FOLDER}
     except (OSError, ImportError, VerificationError) as error:
-        reason = getattr(error, "strerror", None) or str(error).splitlines()[-1]
+        reason = shown(getattr(error, "strerror", None) or str(error))
         raise WriteError(
             f"the forms of finite elements cannot be compiled there ({reason}): make room there "
-            "and for temporary files, or name another folder by XDG_CACHE_HOME",
+            "and for temporary files, remove it, or name another folder by XDG_CACHE_HOME",
             file=FOLDER,
         ) from None
 

@@ -62,7 +62,7 @@ def read_matrix(path: Path, letter: str) -> FileMatrix:
             raise
         except Exception as error:  # readers raise various exceptions for damaged files
             raise MeshError(
-                f"cannot be read as {path.suffix} ({shown(error)}): is it cut short or damaged?"
+                f"cannot be read as {path.suffix} ({shown(error)}): is it cut short?"
             ) from None
         require(
             (

@@ -18,8 +18,8 @@ from geometry.file_mesh import FileMesh, Physics, as_tetrahedra, require_all
 from geometry.nastran import read_bulk
 from geometry.split import NODES, Block, upright
 
-SECTION = re.compile(rb"^\$(End)?(Nodes|Elements)\b", re.MULTILINE)
-SECTIONS = b"Elements", b"Nodes"
+SECTION = re.compile(rb"^\$(?:End)?(?:Nodes|Elements)\b", re.MULTILINE)
+SECTIONS = [[b"$Elements", b"$EndElements"], [b"$Nodes", b"$EndNodes"]]
 NAMES = re.compile(rb'^[ \t]*(\d) +(\d+) +"([^"]*)"', re.MULTILINE)  # dimension, number, name
 ASCII = re.compile(rb"^\$MeshFormat\s+\S+\s+0\s", re.MULTILINE)
 ANEW = {
@@ -38,11 +38,10 @@ def _read_msh(path: Path) -> FileMesh:
     if data.lstrip().startswith(b"*"):
         return read_deck(path)
     marks = [*SECTION.finditer(data)]
-    named = [(mark[2], bool(mark[1])) for mark in marks]
+    named = [mark[0] for mark in marks]
     require(
         (
-            sorted(named) == [(name, end) for name in SECTIONS for end in (False, True)]
-            and named[1::2] == [(name, True) for name, _ in named[::2]],
+            sorted([named[:2], named[2:]]) == SECTIONS,
             f"needs one $Nodes and one $Elements, both with their end: {ANEW['.msh']}",
         ),
         (
@@ -54,7 +53,7 @@ def _read_msh(path: Path) -> FileMesh:
     for block in mesh.cells:
         if block.type in SERENDIPITY:
             block.data = _gmsh_to_meshio_order(SERENDIPITY[block.type], block.data)
-    first, last = (mark for mark in marks if mark[2] == b"Elements")
+    first, last = (mark for mark in marks if mark[0].endswith(b"Elements"))
     head, *lines = data[first.end() : last.start()].strip().splitlines()
     if ASCII.search(data):
         _require_all(mesh, len(lines) if len(head.split()) == 1 else int(head.split()[1]))

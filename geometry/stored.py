@@ -226,7 +226,7 @@ def _require_heaps_that_end(data: mmap) -> None:
     Each entry leads to the next by its length: index (2 bytes, 0 of free room), 6 bytes, length
     (8), data to a multiple of 8; the length of free room is its whole.
     """
-    at = data.find(HEAP)
+    at, left = data.find(HEAP), len(data)  # heaps do not overlap
     while at >= 0:
         place, end = at + ENTRY, at + int.from_bytes(data[at + 8 : at + ENTRY], "little")
         while place + ENTRY <= end:
@@ -235,6 +235,8 @@ def _require_heaps_that_end(data: mmap) -> None:
             step = length if free else ENTRY + length + -length % 8
             require((ENTRY <= step <= end - place, "a heap is damaged"), kind=ValueError)
             place += step
+        left -= end - at
+        require((left >= 0, "a heap is damaged"), kind=ValueError)
         at = data.find(HEAP, at + 1)
 
 

@@ -24,7 +24,6 @@ from geometry.base.files import (
     alone,
     intact,
     legible,
-    lock_of,
     read_json,
     require_writable,
     seal,

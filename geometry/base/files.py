@@ -33,7 +33,7 @@ from geometry.base.provenance import (
 TEMPORARY = re.compile(r"\..*\.(\d+)-(\d+)-([0-9a-f]{16})(\.\w+)?")
 TRIED = 1 << 16  # bytes written to try a place
 HASH = "sha256"  # key of a JSON file: hash of all others
-LIST = "list"  # the only other key where the values are a list
+LIST = "[]"  # the only other key where the values are a list
 AROUND = {  # before and after the hash, by suffix; other files have no seal
     ".h5": (b"\nsha256 ", b"\n"),
     ".nc": (b"\nsha256 ", b"\n"),
@@ -66,22 +66,18 @@ def whole(path: str | Path) -> Iterator[Path]:
         os.replace(temporary, path)
 
 
-def lock_of(path: Path) -> Path:
-    """The file of the lock of ``alone``."""
-    return path.with_name(f".{path.name}.lock")
-
-
 @contextmanager
 def alone(path: Path) -> Iterator[bool]:
     """Let one process at a time into the block, which makes what is at ``path``.
 
     Yields whether it is alone: where the folder takes no lock all are let in. The lock ends with
-    the process, also when it is killed.
+    the process, also when it is killed; its empty file stays.
     """
+    lock = path.with_name(f".{path.name}.lock")
     with ExitStack() as held:
         try:
             path.parent.mkdir(parents=True, exist_ok=True)
-            flock(held.enter_context(lock_of(path).open("w")), LOCK_EX)
+            flock(held.enter_context(lock.open("w")), LOCK_EX)
             locked = True
         except OSError:
             locked = False

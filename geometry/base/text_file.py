@@ -96,10 +96,10 @@ def csv_rows(path: str | Path) -> Iterator[tuple[int, list[str]]]:
         When the file cannot be read or has too many lines, a quote is not closed in its line, or
         cells are separated by semicolons or tabs.
     """
-    text = read_text(path)
-    lines = text.count("\n")
-    require((lines <= MOST_LINES, f"has {lines} lines: allowed {MOST_LINES}"), kind=SettingsError)
-    for number, line in enumerate(text.splitlines(), 1):
+    lines = read_text(path).splitlines()
+    most = f"has {len(lines)} lines: allowed {MOST_LINES}"
+    require((len(lines) <= MOST_LINES, most), kind=SettingsError)
+    for number, line in enumerate(lines, 1):
         if not line.strip() or line.lstrip()[0] == "#":
             continue
         try:
@@ -131,7 +131,8 @@ def unquoted(path: str | Path) -> Iterator[None]:
     try:
         yield
     except (UserError, ValueError):
-        if os.path.realpath(path).startswith(os.path.join(os.path.realpath("."), "")):
+        here = os.path.join(os.path.realpath("."), "")
+        if not os.path.isfile(path) or os.path.realpath(path).startswith(here):
             raise
         raise SettingsError(
             "is no such table; it is outside the folder of this run, so that what it holds is not "

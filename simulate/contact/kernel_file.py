@@ -39,7 +39,7 @@ from numba.core.serialize import dumps
 from numba.core.types import BaseTuple, Dispatcher as DispatcherType, Type
 from platformdirs import user_cache_path
 
-from geometry.base import alone, intact, lock_of, write_whole
+from geometry.base import alone, intact, write_whole
 
 FOLDER = user_cache_path("tiprub") / "kernels"
 MOST_BYTES = 1 << 28  # of all kernels, some 150: those used last are kept
@@ -191,7 +191,6 @@ def _remove_unused(folder: Path) -> None:
     for (path, _), size in zip(states, sizes, strict=True):
         if size > MOST_BYTES:
             path.unlink(missing_ok=True)
-            lock_of(path).unlink(missing_ok=True)
 
 
 def _compiled(function: Dispatcher, types: tuple[Type, ...]) -> Callable:

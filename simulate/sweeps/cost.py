@@ -1,13 +1,14 @@
 """Cost of a sweep before it is run: steps, time and memory.
 
 The laws are fitted to drawn scenes on one core, with reduced models of 40 to 120 DoFs and up to 64
-strips (``./run python -m tests.benchmarks.told``): nine in ten take between a third and three times
+strips (benchmark `told`, tests/README.md): nine in ten take between a third and three times
 what is told. What is not known before is how long the tip touches, and what second runs find. The
 time left is measured as the sweep goes on.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from math import ceil, log2
 from typing import NamedTuple, Self
 
@@ -23,7 +24,7 @@ from simulate.errors.neighbour import Neighbour
 from simulate.errors.neighbours import HALF, QUARTER, TWIN
 from simulate.marching import prepare
 from simulate.marching.setup import MAX_STEPS
-from simulate.scene import LEADING, PEAKS, Liner, Record, Scene
+from simulate.scene import LEADING, PEAKS, Casing, Liner, Peaks, Record, Scene
 
 STEP, MODE_ROW = 1e-7, 2.5e-10  # s a step; and for each mode of a row
 # of a step in contact, s: for itself and for each pair of strips that touch, by scheme
@@ -41,20 +42,33 @@ CHECK = 3.5  # runs: the check of one
 
 
 class Sizes(NamedTuple):
-    """What the cost depends on of a reduced model."""
+    """What the cost depends on of a reduced model, and of a scene on it."""
 
     n: int  # DoFs
     across: int  # rows
     radius: float  # m, mean of the tip
     omega1: float  # rad/s, of its first mode at rest
+    footprint: float  # m
+    touching: NDArray[np.float64]  # (angles,), strips that touch
 
     @classmethod
-    def of(cls, rom: Rom) -> Self:
-        """Those of a model."""
-        return cls(rom.n, rom.across, float(rom.camber[:, 0].mean()), rom.omega1)
+    def of(cls, scene: Scene, rom: Rom | None) -> Self:
+        """Those of a scene on a model, or on a usual one."""
+        liner = scene.liner
+        if rom is None:
+            touching = np.zeros(ANGLES)
+            touching[: round(USUAL_CONTACT * ANGLES)] = USUAL_CONTACT * liner.m
+            return cls(*USUAL, liner.footprint_m or USUAL_FOOTPRINT, touching)
+        radius = float(rom.camber[:, 0].mean())
+        middle = float(np.median(scene.speeds.omega(rom.f1)))
+        gap = float(given_gaps(scene.gaps, rom, LEADING))
+        gaps = gaps_at(scene.gaps, rom, strip_xi(rom, liner.m), middle)
+        touching = rom.across * _touching(scene.casing, gap, gaps)
+        footprint = mean_footprint(liner, rom)
+        return cls(rom.n, rom.across, radius, rom.omega1, footprint, touching)
 
 
-USUAL = Sizes(n=60, across=1, radius=0.5, omega1=1500.0)
+USUAL = 60, 1, 0.5, 1500.0  # the first of them
 USUAL_FOOTPRINT, USUAL_STEPS = 5e-3, 1e5  # m; of central differences in a revolution
 USUAL_CONTACT = 0.35  # of the time, and of the strips
 ANGLES = 720  # at which the casing is compared with the gaps
@@ -97,8 +111,8 @@ class Cost:
         memory = memory or memory_of_machine()
         much = failed(
             (
-                self.seconds <= LONG,
-                f"{WARNING}that is some {duration(self.seconds)}: lower the number of speeds "
+                self.total <= LONG,
+                f"{WARNING}that is some {duration(self.total)}: lower the number of speeds "
                 "(`peaks` adds those that matter), rounds, or integrator.steps_per_round",
             ),
             (
@@ -117,15 +131,27 @@ def cost(scene: Scene, rom: Rom | None, speeds: int | None = None) -> Cost:
     Found in milliseconds, whatever the scene asks for. ``rom``: None where there is none yet; the
     cost is that on a usual one.
     """
-    sizes = Sizes.of(rom) if rom else USUAL
+    liner, sizes = scene.liner, Sizes.of(scene, rom)
     Omega = scene.speeds.omega(sizes.omega1 / (2 * np.pi))
-    steps = float(_steps(scene, rom, Omega).mean())
-    added = _added(scene, sizes, Omega) if speeds is None else 0
+    steps = float(scene.stepping.steps_per_round or USUAL_STEPS)
+    if rom and not scene.stepping.steps_per_round:
+        few = {"liner": liner.model_copy(update={"rods_per_round": min(liner.nu, FEW_RODS)})}
+        prepared = partial(prepare, scene.model_copy(update=few), rom)
+        steps = _mean_steps(Omega, lambda speed: prepared(speed).steps)
+    added = _added(scene.peaks, sizes.omega1, Omega) if speeds is None else 0
     speeds = len(Omega) if speeds is None else speeds
-    second_runs = [*_second_runs(scene)]
+    # half the step that does not agree asks for a quarter
+    second_runs = [TWIN] * scene.twins + [HALF, QUARTER] * scene.halves
     each = 1 + sum(run.cost for run in second_runs)
-    runs = (speeds + added) * each + _checks(scene, speeds)
+    runs = (speeds + added) * each + _checks(scene.verify == PEAKS, scene.checked_share, speeds)
     all_steps = runs * scene.rounds * steps
+    entries = sizes.n * liner.m * (sizes.across + scene.contact.along)
+    passed = ceil(liner.nu / steps)
+    rods = 1 + passed + max(rods_in_footprint(sizes.footprint, sizes.radius, liner.nu), passed)
+    contact = _in_contact(scene.stepping.scheme, rods, entries, sizes.touching)
+    contact *= TRAVELLING if scene.casing.travelling else 1.0
+    contact *= 1.0 if scene.contact.friction is None else FRICTION
+    contact *= liner.law.touches
     return Cost(
         scene=scene,
         speeds=speeds,
@@ -135,81 +161,57 @@ def cost(scene: Scene, rom: Rom | None, speeds: int | None = None) -> Cost:
         runs_at_speeds=speeds * each,
         runs=runs,
         all_steps=all_steps,
-        seconds=all_steps * _of_step(scene, rom, sizes, steps) + RUN * runs,
+        seconds=all_steps * (STEP + MODE_ROW * entries + contact) + RUN * runs,
         memory=START
         + HELD * _held(speeds + added, scene.record, scene.liner, scene.rounds, sizes.n),
     )
 
 
-def _steps(scene: Scene, rom: Rom | None, Omega: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Steps per revolution at each speed ``Omega``, rad/s.
+def _mean_steps(Omega: NDArray[np.float64], at: Callable[[float], int]) -> float:
+    """Mean steps per revolution over the speeds ``Omega``, rad/s.
 
-    Those of the limit, from the steps at the lowest, the middle and the highest speed: their length
-    hardly depends on the speed, nor on the rods, of which arrays of many take their time.
+    From those at the lowest, the middle and the highest: the length of a step hardly depends on the
+    speed, nor on the rods, of which arrays of many take their time.
     """
-    if scene.stepping.steps_per_round:
-        return np.full(len(Omega), float(scene.stepping.steps_per_round))
-    if rom is None:
-        return np.full(len(Omega), USUAL_STEPS)
-    few = scene.but(liner__rods_per_round=min(scene.liner.nu, FEW_RODS))
-    at = np.unique(np.quantile(Omega, [0.0, 0.5, 1.0], method="nearest"))
-    steps = [min(prepare(few, rom, speed).steps, MAX_STEPS) for speed in at.tolist()]
-    lengths = 1 / (at * steps)
-    return 1 / (Omega * np.interp(Omega, at, lengths))
+    some = np.unique(np.quantile(Omega, [0.0, 0.5, 1.0], method="nearest"))
+    lengths = 1 / (some * [min(at(speed), MAX_STEPS) for speed in some.tolist()])
+    return float(np.mean(1 / (Omega * np.interp(Omega, some, lengths))))
 
 
-def _second_runs(scene: Scene) -> Iterator[Neighbour]:
-    """Second runs of each speed. Half the step that does not agree asks for a quarter."""
-    if scene.twins:
-        yield TWIN
-    if scene.halves:
-        yield from (HALF, QUARTER)
-
-
-def _checks(scene: Scene, speeds: int) -> float:
+def _checks(at_peaks: bool, share: float, speeds: int) -> float:
     """Further runs: second runs at peaks alone, or within a share of all steps, one at least."""
-    every = 1 + TWIN.cost + HALF.cost + QUARTER.cost
-    if scene.verify == PEAKS:
-        return min(FOUND, speeds) * every
-    return max(scene.checked_share * speeds, CHECK) if scene.checked_share else 0.0
+    if at_peaks:
+        return min(FOUND, speeds) * (1 + TWIN.cost + HALF.cost + QUARTER.cost)
+    return max(share * speeds, CHECK) if share else 0.0
 
 
-def _added(scene: Scene, sizes: Sizes, Omega: NDArray[np.float64]) -> int:
+def _added(peaks: Peaks | None, omega1: float, Omega: NDArray[np.float64]) -> int:
     """Speeds that are added around peaks, two of each at each halving of their distance."""
-    if not (peaks := scene.peaks):
+    if not peaks:
         return 0
-    apart = np.ptp(Omega) / max(len(Omega) - 1, 1) / (peaks.within_over_f1 * sizes.omega1)
+    apart = np.ptp(Omega) / max(len(Omega) - 1, 1) / (peaks.within_over_f1 * omega1)
     halvings = max(ceil(log2(apart)), 0) if apart > 0 else 0
     added = 2 * halvings * (len(peaks.orders) if peaks.orders else FOUND)
     return added if peaks.orders else min(added, peaks.most)
 
 
-def _of_step(scene: Scene, rom: Rom | None, sizes: Sizes, steps: float) -> float:
-    """Time of a step on one core, s: of the modes, and of the contact in a part of the steps."""
-    liner = scene.liner
-    entries = sizes.n * liner.m * (sizes.across + scene.contact.along)
-    free = STEP + MODE_ROW * entries
-    if not liner.law.touches:
-        return free
-    footprint = mean_footprint(liner, rom) if rom else liner.footprint_m or USUAL_FOOTPRINT
-    passed = ceil(liner.nu / steps)
-    rods = 1 + passed + max(rods_in_footprint(footprint, sizes.radius, liner.nu), passed)
-    touching, (once, pair) = _touching(scene, rom) * sizes.across, CONTACT[scene.stepping.scheme]
+def _touching(casing: Casing, gap: float, gaps: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Number of the strips (angles,) whose ``gaps``, m, the casing takes up: of a blade at rest.
+
+    ``gap``: that of its harmonics, m.
+    """
+    inward = casing.inward(np.linspace(0, 2 * np.pi, ANGLES), gap)
+    return np.asarray((inward > gaps[:, None]).sum(axis=0), np.float64)
+
+
+def _in_contact(scheme: str, rods: float, entries: float, touching: NDArray[np.float64]) -> float:
+    """Time of contact of a step, s: mean over the angles at which so many strips touch.
+
+    ``rods`` under a strip; ``entries`` of the interface rows of all modes.
+    """
+    once, pair = CONTACT[scheme]
     each = (once + ROW * entries) * (touching > 0) + ROD * rods * touching + pair * touching**2
-    more = TRAVELLING if scene.casing.travelling else 1.0
-    more *= 1.0 if scene.contact.friction is None else FRICTION
-    return free + more * float(each.mean())
-
-
-def _touching(scene: Scene, rom: Rom | None) -> NDArray[np.float64]:
-    """Number of the strips (angles,) whose gap the whole casing takes up, of a blade at rest."""
-    m = scene.liner.m
-    if rom is None:
-        return USUAL_CONTACT * m * (np.linspace(0, 1, ANGLES) < USUAL_CONTACT)
-    Omega, theta = np.median(scene.speeds.omega(rom.f1)), np.linspace(0, 2 * np.pi, ANGLES)
-    inward = scene.casing.inward(theta, float(given_gaps(scene.gaps, rom, LEADING)))
-    gaps = gaps_at(scene.gaps, rom, strip_xi(rom, m), float(Omega))
-    return (inward > gaps[:, None]).sum(axis=0).astype(float)
+    return float(each.mean())
 
 
 def _held(speeds: int, record: Record, liner: Liner, rounds: int, n: int) -> float:

@@ -151,7 +151,7 @@ def test_json_has_a_hash_of_its_values(tmp_path):
     path.unlink()
     assert refused(ProvenanceError, read_json, path).file == str(path)
     write_json([1, {"a": 2}], path)
-    assert read_json(path) == json.loads(path.read_text())["list"] == [1, {"a": 2}]
+    assert read_json(path) == json.loads(path.read_text())["[]"] == [1, {"a": 2}]
     for unknown in ('{"a": 1}', "[1, 2]", "1", "[" * 100_000):
         path.write_text(unknown)
         refused(ProvenanceError, read_json, path)

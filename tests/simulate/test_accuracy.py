@@ -11,7 +11,7 @@ import pytest
 from refused import refused
 from scenes import scene
 
-from geometry.base import ROOT, ProvenanceError, check_settings
+from geometry.base import ROOT, ProvenanceError, check_settings, write_json
 from geometry.blade import Blade
 from rom.check import RomCheck
 from rom.coarser import coarser
@@ -236,7 +236,7 @@ def asking(reference):
 @pytest.mark.slow
 def test_a_choice_is_recorded_with_the_errors_of_every_run(asking, tmp_path):
     case, rom, choice, *_ = asking
-    (tmp_path / "settings.json").write_text(json.dumps(choice.plain()))
+    write_json(choice.plain(), tmp_path / "settings.json")
     again = Choice.load(tmp_path / "settings.json")
     assert again.runs == {} and again.plain() == choice.plain()
     assert (again.basis_error, again.mesh_error) == (0.001, 0.002)
@@ -341,7 +341,7 @@ def test_a_coarse_basis_or_mesh_is_refused_with_its_error(asking, reference, tmp
     of_basis = ModelErrors.of(check, path, rom)
     assert of_basis == (pytest.approx((0.02, None)), pytest.approx((0.02, None)), "")
     found = {"mesh": rom.provenance.mesh, "error": 0.013, "frequencies": 0.004}
-    path.write_text(json.dumps(found))
+    write_json(found, path)
     of_both = ModelErrors.of(check, path, rom)
     assert (of_both.frequencies.mesh, of_both.largest.mesh) == (0.004, 0.013)
     for doubt in (of_basis.largest, of_both.largest._replace(basis=0.0)):
@@ -351,9 +351,9 @@ def test_a_coarse_basis_or_mesh_is_refused_with_its_error(asking, reference, tmp
     assert refused(SceneError, check_sweep, case, rom).key == "accuracy"
     of_other = check_of(reference.finer, tmp_path / "other.nc")
     assert refused(ProvenanceError, ModelErrors.of, of_other, path, rom).file == str(of_other)
-    path.write_text(json.dumps(found | {"error": None, "frequencies": None, "why": "too coarse"}))
+    write_json(found | {"error": None, "frequencies": None, "why": "too coarse"}, path)
     assert "too coarse" in refused(SceneError, pilot, case, rom, check, path).text
-    path.write_text(json.dumps({"mesh": "another", "error": 0.003}))
+    write_json({"mesh": "another", "error": 0.003}, path)
     assert refused(ProvenanceError, pilot, case, rom, check, path).file == str(path)
 
 

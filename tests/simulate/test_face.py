@@ -165,7 +165,8 @@ def test_casings_of_a_function_a_table_and_harmonics_are_equal(tmp_path):
         (None, "cannot be read"),
     ],
 )
-def test_tables_that_are_refused(tmp_path, text, told):
+def test_tables_that_are_refused(tmp_path, monkeypatch, text, told):
+    monkeypatch.chdir(tmp_path)
     path = tmp_path / "bumps.csv"
     if text is not None:
         path.write_text(text)

@@ -99,7 +99,8 @@ def test_curve_that_yields_at_once_has_no_elastic_part():
         (None, "liner.csv: cannot be read"),
     ],
 )  # fmt: skip
-def test_each_fault_of_a_curve_is_one_line(curve, line, tmp_path):
+def test_each_fault_of_a_curve_is_one_line(curve, line, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
     path = tmp_path / "liner.csv"
     if isinstance(curve, str):
         path.write_text(curve)

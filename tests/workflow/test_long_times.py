@@ -1,6 +1,5 @@
 """Long times: numbers and figure on prescribed sweeps, the worst cases over many rounds."""
 
-import json
 from types import SimpleNamespace
 
 import numpy as np
@@ -8,6 +7,7 @@ import pytest
 import xarray as xr
 from made_sweeps import ENDS, GAP, attrs_of, by_strip, made_rom
 
+from geometry.base import write_json
 from simulate.scene import Scene
 from simulate.sweeps.dataset import save
 from tests.simulate.scenes import scene
@@ -88,5 +88,5 @@ def cases(tmp_path):
     ]
     rigid = {"Omega_c": 0.39, "amplitude": 0.8, "status": "ok"}
     path = tmp_path / "worst.json"
-    path.write_text(json.dumps({"cases": listed, "rigid": rigid}))
+    write_json({"cases": listed, "rigid": rigid}, path)
     return SimpleNamespace(worst=path)

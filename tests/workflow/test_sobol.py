@@ -116,7 +116,8 @@ def wrong(keys=("rounds",), between=(1, 2)):
         ({"sample": 4}, "sample"),
     ],
 )
-def test_a_design_that_cannot_be_drawn_is_refused(tmp_path, changes, key):
+def test_a_design_that_cannot_be_drawn_is_refused(tmp_path, monkeypatch, changes, key):
+    monkeypatch.chdir(tmp_path)
     (tmp_path / "factors.yaml").write_text(json.dumps({"samples": 4, "factors": FACTORS} | changes))
     error = refused(
         SettingsError, Design.of, scene().but(design="factors.yaml"), tmp_path / "scene.yaml"

@@ -16,7 +16,7 @@ import yaml
 from projects import PACKAGES, ROOT, make_project
 
 import simulate
-from geometry.base import check_settings, read_json, sources, sources_of
+from geometry.base import check_settings, sources, sources_of
 from geometry.elsewhere import MatricesElsewhere
 
 PAGE = (ROOT / "rom/README.md").read_text()
@@ -158,7 +158,7 @@ def jobs(tmp_path_factory):
         (blades / file).touch()
     (project.folder / "workflow/scenes/gauged.yaml").write_text(GAUGED)
     project.run("-n", *TARGETS)
-    return read_json(project.folder / "jobs.json")
+    return json.loads((project.folder / "jobs.json").read_text())
 
 
 def modules_of(job):

@@ -50,4 +50,16 @@ def test_the_line_has_the_sum_and_the_largest_memory(folder):  # noqa: F811
     assert line.startswith(f"3 jobs: some {duration(seconds)} on one core, ")
     untold = told(of_all, [*jobs, job("experiment_block"), job("growth")])
     assert untold == line.replace("3", "5", 1) + ", without experiment_block, growth"
-    assert re.search(rf" {max(modes.memory, DRAWN.memory) / 1e9:.2g} GB at most$", line)
+    assert re.search(rf" {max(modes.memory, DRAWN.memory) / 1e9:.2g} GB for one at most$", line)
+
+
+@pytest.mark.parametrize("rule", ["sweep", "sweep_block", "answers", "pilot", "design_block"])
+def test_no_scene_stops_a_run_whose_cost_is_told(folder, rule):  # noqa: F811
+    """Nor a mesh that is damaged; that of `one-percent` its pilot chooses."""
+    of_all = project()
+    for name in of_all.scenes:
+        told(of_all, [job(rule, scene=name, blade=of_all.scenes[name].blade, block="0")])
+    mesh = folder / "results/paper/blade.msh"
+    mesh.parent.mkdir(parents=True)
+    mesh.write_text(f"$Nodes\n1 {'4' * 400} 1\n")
+    assert told(of_all, [job("modes", blade="paper")]).endswith(", without modes")

@@ -6,7 +6,8 @@ are not there yet are taken to be of usual size. Code that is compiled for the f
 counted (16 s for each scheme and law).
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 from geometry.base import UserError, duration
@@ -29,14 +30,26 @@ UNTOLD = ("experiment_block", "growth", "interface", "paper_")  # begin rules of
 RUNS = {"answers": 80.0, "pilot": 40.0}  # of the scene, that a job repeats or varies
 
 
-def told(project: Project, jobs: Sequence[tuple[str, Any]]) -> str:
-    """Number, CPU time and memory of ``jobs``, by rule and wildcards, in a line."""
-    known = [job for job in jobs if not job[0].startswith(UNTOLD)]
-    each = [_of_job(project, *job) for job in known] or [Cost(0.0, 0.0)]
-    seconds, memory = sum(cost.seconds for cost in each), max(cost.memory for cost in each)
-    line = f"{len(jobs)} jobs: some {duration(seconds)} on one core, {memory / 1e9:.2g} GB at most"
-    untold = sorted({rule for rule, _ in jobs if rule.startswith(UNTOLD)})
-    return f"{line}, without {', '.join(untold)}" if untold else line
+def told(project: Project, jobs: Iterable[tuple[str, Any]]) -> str:
+    """Number, CPU time and memory of ``jobs``, by rule and wildcards, in a line.
+
+    Rules whose cost is not known are named.
+    """
+    of = [(rule, _known(project, rule, wildcards)) for rule, wildcards in jobs]
+    each = [cost for _, cost in of if cost]
+    seconds = sum(cost.seconds for cost in each)
+    memory = max((cost.memory for cost in each), default=0.0)
+    line = f"{len(of)} jobs: some {duration(seconds)} on one core, {memory / 1e9:.2g} GB for one"
+    untold = sorted({rule for rule, cost in of if not cost})
+    return f"{line} at most, without {', '.join(untold)}" if untold else f"{line} at most"
+
+
+def _known(project: Project, rule: str, wildcards: Any) -> Cost | None:
+    """Cost of a job; None where it is not known beforehand, for which no run is stopped."""
+    if not rule.startswith(UNTOLD):
+        with suppress(Exception):  # of files and scenes that the job itself refuses
+            return _of_job(project, rule, wildcards)
+    return None
 
 
 def _of_job(project: Project, rule: str, wildcards: Any) -> Cost:
@@ -60,11 +73,12 @@ def _of_scene(project: Project, rule: str, wildcards: Any) -> Cost:
     run = of.seconds / of.runs
     if rule in RUNS:
         return Cost(START + RUNS[rule] * run, of.memory)
-    blocks = project.scenes.block_count(wildcards)
     if rule == "design_block":
         return Cost(START + of.seconds * project.scenes.rows_of_block(wildcards), of.memory)
-    share = of.runs_at_speeds / blocks if rule == "sweep_block" else of.runs - of.runs_at_speeds
-    return Cost(START + share * run, of.memory / (blocks if rule == "sweep_block" else 1))
+    if rule == "sweep_block":
+        blocks = project.scenes.block_count(wildcards)
+        return Cost(START + of.runs_at_speeds * run / blocks, of.memory / blocks)
+    return Cost(START + (of.runs - of.runs_at_speeds) * run, of.memory)
 
 
 def _sweep(project: Project, wildcards: Any) -> "CostOfSweep":
