@@ -48,19 +48,20 @@ def test_with_jobs_that_are_ended_where_ctrl_c_did_not_reach_them(monkeypatch, o
 def test_a_run_ends_in_one_line_and_its_jobs_with_it(project):
     """The group is that of Snakemake, as of ./run."""
     wanted = ["-F", "--cores", "1", "results/paper/paper-e1/sweep.nc"]
-    process = subprocess.Popen(
+    with subprocess.Popen(
         [sys.executable, "-m", "workflow.start", *wanted],
         cwd=project.folder,
         env=project.environment,
         stderr=subprocess.PIPE,
         text=True,
         start_new_session=True,
-    )
-    for line in process.stderr:
-        if "Mesh of blade" in line:
-            break
-    sleep(3.0)
-    process.send_signal(signal.SIGINT)
-    left = process.stderr.read()  # until the jobs have ended, too
-    assert process.wait() == 1
-    assert [line for line in left.splitlines() if line and "Reason" not in line] == [start.STOPPED]
+    ) as process:
+        for line in process.stderr:
+            if "Mesh of blade" in line:
+                break
+        sleep(2.0)
+        process.send_signal(signal.SIGINT)
+        left = process.stderr.read()  # until the jobs have ended, too
+    assert process.returncode == 1
+    assert left.splitlines()[-1] == start.STOPPED
+    assert "Traceback" not in left and "Error" not in left
