@@ -25,13 +25,13 @@ FOLDER = user_cache_path("tiprub") / "forms"
 
 
 def compiled(form: ufl.Form) -> Any:
-    """``fem.form`` of a form; errors as of ``_options``."""
+    """``fem.form`` of a form; a ``WriteError`` says why it cannot be compiled or kept."""
     with _options() as options:
         return fem.form(form, jit_options=options)
 
 
 def compiled_at(of: ufl.core.expr.Expr, points: NDArray) -> fem.Expression:
-    """``fem.Expression`` of a tensor at ``points`` of a cell; errors as of ``_options``."""
+    """``fem.Expression`` of a tensor at ``points`` (n, 3) of a cell; errors as ``compiled``."""
     with _options() as options:
         return fem.Expression(of, points, jit_options=options)
 

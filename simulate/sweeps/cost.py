@@ -1,8 +1,8 @@
 """Cost of a sweep before it is run: steps, time and memory.
 
-The laws are fitted to drawn scenes on one core, with reduced models of 40 to 120 DoFs and up to 64
-strips (benchmark `told`, tests/README.md): nine in ten take between a third and three times
-what is told. What is not known before is how long the tip touches, and what second runs find. The
+The laws are fitted to drawn scenes of blades `paper` and `rotor67` on one core, with up to 64
+strips (benchmark `told`, tests/README.md): nine in ten take between a third and three times what is
+told. What is not known before is how long the tip touches, and what second runs find. The
 time left is measured as the sweep goes on.
 """
 
