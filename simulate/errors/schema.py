@@ -264,6 +264,20 @@ QUANTITIES = (  # in the order of the columns
         legend=("torque", "mean of the revolutions, against the rotation"),
     ),
     Quantity(
+        name="casing_motion",
+        unit="m",
+        meaning="largest radial motion of the casing, anywhere around it",
+        of=lambda run: run.outcome.casing.largest if run.outcome.casing else nan,
+        peak=MOTION,
+        head="casing µm",
+        shown=UM,
+        loads=True,
+        legend=(
+            "casing",
+            "largest radial motion of a casing that moves, anywhere around it, in the whole run",
+        ),
+    ),
+    Quantity(
         name="tip_speed",
         unit="m s-1",
         meaning="Omega times the radius of the tip at xi = 1/16",

@@ -88,7 +88,11 @@ def sliding(
 
 
 def monotony(
-    modes: Modes, mu: float, zeta: float, h: float, stiffness: NDArray[np.float64]
+    modes: Modes,
+    mu: float,
+    zeta: float | NDArray[np.float64],
+    h: float,
+    stiffness: NDArray[np.float64],
 ) -> float:
     """Smallest eigenvalue of Eq. (b), scaled by sqrt(k) on both sides; a step needs it positive.
 
@@ -106,7 +110,11 @@ def monotony(
 
 
 def steps_with_one_solution(
-    modes: Modes, mu: float, zeta: float, h: float, stiffness: NDArray[np.float64]
+    modes: Modes,
+    mu: float,
+    zeta: float | NDArray[np.float64],
+    h: float,
+    stiffness: NDArray[np.float64],
 ) -> int:
     """How many times shorter than ``h`` (s) a step, and its half, have one solution, Eq. (b).
 

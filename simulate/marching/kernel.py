@@ -71,6 +71,9 @@ class Recorded(NamedTuple):
     # (2, shares, m), the part of each strip in each share of the chord: for t_N times t_N over its
     # generalised force, and for t_T
     weights: NDArray[np.float64]
+    # (samples, columns), coordinates of a casing that moves at every sample, from ``first`` on
+    casing: NDArray[np.float64] = np.zeros((0, 0))
+    first: int = 0
 
 
 @compiled
@@ -116,6 +119,7 @@ def march_free(scheme, strips, motion, energies, a_first, a_last, number, end, r
         energies[DAMPING] += lost
         number += 1
         now, last, before = before, now, last
+        scheme.turn(scheme, motion, last)
         lost = predict(scheme, motion.x, motion.y, now, last, before)
         if strips.touches or number == end:  # without a liner, where the bound is checked
             interface(scheme.Phi, motion.x, motion.u, now)
@@ -143,6 +147,7 @@ def contact_step(scheme, strips, state, recorded, step, lost):
         lost = scheme.correct(
             scheme, motion.x, motion.y, motion.modal, step.now, step.last, step.before
         )
+        scheme.book(scheme, strips, state, step)
         book_forces(strips, motion.force, recorded.weights, recorded.forces)
         if deepest >= strips.thickness and strips.rigid_depth == np.inf:
             through = where
@@ -222,6 +227,8 @@ def march_round(scheme, strips, state, recorded, ramp, bound, done, steps):
                 return contacts, number, WORN_THROUGH, through
         now = turns(round_turn, number)[0]
         observe(recorded.Phi, motion.x, now, samples[sample])
+        for k in range(recorded.casing.shape[1]):
+            recorded.casing[sample, k] = motion.x[now, recorded.first + k]
         if len(recorded.states):
             for k in range(motion.x.shape[1]):
                 recorded.states[sample, k] = motion.x[now, k]

@@ -9,10 +9,20 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from simulate.contact.compiled import compiled_sums
+from simulate.contact.compiled import compiled, compiled_sums
 
 LANES = 8  # interface rows summed in one pass over the modes; a cache line of numbers
 TURNS = 3  # steps kept: n + 1, n and n - 1, in rows that take turns
+
+
+@compiled
+def stands(scheme, motion, last):
+    """A rigid casing."""
+
+
+@compiled
+def takes_nothing(scheme, strips, state, step):
+    """A rigid casing."""
 
 
 class Scheme(NamedTuple):
@@ -36,6 +46,9 @@ class Scheme(NamedTuple):
     find_force: Any  # force of the liner in the step
     forces: Any = None  # of the strips in contact, where they are found implicitly
     sliding: Any = None  # ``friction.Sliding`` where the tip slides with friction
+    turn: Any = stands  # what the casing does before a step
+    book: Any = takes_nothing  # and after it
+    turning: Any = None  # ``moving_casing.Turning`` where it moves
 
 
 class Motion(NamedTuple):

@@ -34,7 +34,10 @@ STIFF = (
 
 
 def coefficients(
-    omega: NDArray[np.float64], Phi_b: NDArray[np.float64], zeta: float, h: float
+    omega: NDArray[np.float64],
+    Phi_b: NDArray[np.float64],
+    zeta: float | NDArray[np.float64],
+    h: float,
 ) -> Scheme:
     """Coefficients for modes ``omega`` (n,), rad/s, and step ``h``, s.
 
@@ -42,6 +45,7 @@ def coefficients(
     ----------
     Phi_b : (rows, n)
         Interface rows of the M-normalised modes.
+    zeta : damping ratio of all modes, or of each (n,)
     """
     omega_d = omega * np.sqrt(1 - zeta**2)
     e, c, s = np.exp(-zeta * omega * h), np.cos(omega_d * h), np.sin(omega_d * h)
@@ -63,7 +67,9 @@ def coefficients(
     )
 
 
-def gain(omega: NDArray[np.float64], zeta: float, h: float) -> NDArray[np.float64]:
+def gain(
+    omega: NDArray[np.float64], zeta: float | NDArray[np.float64], h: float
+) -> NDArray[np.float64]:
     """G (n,): displacement of modes ``omega`` (rad/s) in a step ``h`` (s) by a modal force of 1."""
     omega_d = omega * np.sqrt(1 - zeta**2)
     e, s = np.exp(-zeta * omega * h), np.sin(omega_d * h)
@@ -89,14 +95,17 @@ def stiffness_in_a_step(w_end: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _losses(
-    omega: NDArray[np.float64], omega_d: NDArray[np.float64], zeta: float, h: float
+    omega: NDArray[np.float64],
+    omega_d: NDArray[np.float64],
+    zeta: float | NDArray[np.float64],
+    h: float,
 ) -> NDArray[np.float64]:
     """Integral of 2 zeta omega q'^2 over a free step as a form in x^2, x y, y^2 of its start.
 
     From the integrals of e^(-2 zeta omega t) times 1, cos 2 omega_d t and sin 2 omega_d t.
     """
     r = 2 * zeta * omega
-    one = -np.expm1(-r * h) / r if zeta > 0 else np.full_like(omega, h)
+    one = np.divide(-np.expm1(-r * h), r, out=np.full_like(omega, h), where=r > 0)
     turn = (np.expm1(complex(0, 2) * omega_d * h - r * h)) / (complex(0, 2) * omega_d - r)
     cos2, sin2 = turn.real, turn.imag
     cc, ss, cs = (one + cos2) / 2, (one - cos2) / 2, sin2 / 2
@@ -113,7 +122,7 @@ def _losses(
 
 def motion_of(
     omega: NDArray[np.float64],
-    zeta: float,
+    zeta: float | NDArray[np.float64],
     h: float,
     x: NDArray[np.float64],
     y: NDArray[np.float64],

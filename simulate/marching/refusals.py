@@ -1,6 +1,6 @@
 """Refusals of a scene that does not fit its reduced model; those of its step are in ``setup``."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from math import ceil
 
 import numpy as np
@@ -11,9 +11,11 @@ from geometry.hats import middles
 from rom.model import DIRECTIONS, Rom
 from simulate.contact.gaps import given_gaps, growth_fault
 from simulate.contact.law_check import fault
-from simulate.contact.places import mean_footprint, rods_in_footprint, strip_places
+from simulate.contact.places import Places, mean_footprint, rods_in_footprint, strip_places
+from simulate.marching.moving_casing import LONGEST_FOOTPRINT
 from simulate.marching.setup import SceneError, edge_slope, least_gap
 from simulate.scene import Casing, Contact, Gaps, Liner, Profile, Scene, Speeds
+from simulate.scene.casing_modes import CasingMode
 from simulate.scene.laws import LAWS
 from simulate.scene.own_laws import Unread
 
@@ -46,6 +48,7 @@ def check_scene(scene: Scene, rom: Rom) -> None:
         *_gaps(scene.gaps, rom),
         *outgrown,
         *(_edge(scene.gaps, liner, scene.contact.profile, rom, speeds) if has_gaps else ()),
+        *_moving(casing.moves, places, rom.across, speeds.max()),
     ]
     if faults:
         raise SceneError(*faults)
@@ -240,6 +243,37 @@ def _gaps(of: Gaps, rom: Rom) -> Iterator[Fault]:
             f"xi = 1/16 and 15/16 may differ by a factor of 15 at most",
             "clearance",
         )
+
+
+def _moving(
+    modes: Sequence[CasingMode], places: Places, across: int, highest: float
+) -> Iterator[Fault]:
+    """Modes of the casing that bend under a row of the tip, or run away for want of damping.
+
+    ``across``: rows across the thickness; ``highest``: speed, rad/s.
+    """
+    half = float((places.footprint / places.radius).max()) / 2 / across
+    for i, mode in enumerate(modes):
+        if mode.order * half > LONGEST_FOOTPRINT:
+            most = int(LONGEST_FOOTPRINT / half)
+            yield Fault(
+                f"half of the arc of the tip that has one displacement is {half:.3g} rad, over "
+                f"which this mode turns by {mode.order * half:.2g}; allowed up to "
+                f"{LONGEST_FOOTPRINT}: orders up to {most}",
+                f"casing.modes.{i}.order",
+                mode.order,
+                {"le": most},
+            )
+        whirls = 2 * np.pi * mode.frequency_Hz / max(mode.order, 1)
+        if mode.order and not mode.damping_ratio and highest >= whirls:
+            yield Fault(
+                f"without damping the mode runs away above its frequency over its order, "
+                f"{RPM * whirls:.6g} rpm; the speeds go up to {RPM * highest:.6g}: give its "
+                "damping, above 0",
+                f"casing.modes.{i}.damping_ratio",
+                0.0,
+                {"gt": 0},
+            )
 
 
 def _edge(

@@ -16,11 +16,30 @@ from numpy.typing import NDArray
 
 from geometry.tip import EDGES
 from simulate.contact.compiled import for_types_of
-from simulate.contact.ledger import CASING, DAMPING, FRICTION, HEAT, PLASTIC, RELEASED, WORK, Ledger
+from simulate.contact.ledger import (
+    CASING,
+    DAMPING,
+    FRICTION,
+    HEAT,
+    ON_CASING,
+    PLASTIC,
+    RELEASED,
+    WORK,
+    Ledger,
+)
 from simulate.contact.places import SHARES, force_weights, volume_of
 from simulate.contact.strips import offset
-from simulate.marching.kernel import RUNNING, WORN_THROUGH, Recorded, State, at_start, march_round
+from simulate.marching.kernel import (
+    ESCAPED,
+    RUNNING,
+    WORN_THROUGH,
+    Recorded,
+    State,
+    at_start,
+    march_round,
+)
 from simulate.marching.modal import TURNS, padded_rows
+from simulate.marching.moving_casing import CasingMotion
 from simulate.marching.setup import SCHEMES, Setup, compiling
 from simulate.marching.states import MostStrained, every
 from simulate.marching.status import WITH_RESULT, Facts, judge, why_no_contact
@@ -101,6 +120,7 @@ class Outcome:
     # of these revolutions (6,), 0 where one is another one
     strained: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 0, 0)))
     strained_rounds: NDArray[np.int64] = field(default_factory=lambda: np.empty(0, int))
+    casing: CasingMotion | None = None  # motion of a casing that is not rigid
 
     @property
     def ledger(self) -> Ledger:
@@ -131,6 +151,9 @@ def _start(
     strips, state = setup.strips, at_start(setup.blade, setup.strips)
     outputs = np.vstack([setup.Phi_out, setup.Phi_timing])
     kept = _room(record, rounds, len(outputs), state.motion.x.shape[1])
+    columns = setup.moving.order.size
+    outputs = np.pad(outputs, ((0, 0), (0, columns)))  # of the blade
+    casing = np.empty((record.samples_per_round, columns))
     Phi_out = padded_rows(outputs)
     share, secant = force_weights(setup.places.ends)[: kept[1].shape[2]], setup.places.secant
     weights = share * np.stack([secant, np.ones_like(secant)])[:, None]
@@ -140,7 +163,7 @@ def _start(
         rows = [array[_row(done, len(array) - 1, rounds, until)] for array in kept]
         read = always or done >= rounds - record.rounds_of_spectrum
         Phi = Phi_out if read else Phi_out[: len(setup.edges)]
-        recorded = Recorded(*rows, Phi=Phi, weights=weights)
+        recorded = Recorded(*rows, Phi, weights, casing, setup.omega.size)
         of_setup = setup.ramp, setup.bound, before + done, setup.steps
         return setup.blade, strips, state, recorded, *of_setup
 
@@ -168,6 +191,7 @@ def march(scene: Scene, setup: Setup, start: FinalState | Worn | None = None) ->
     if start:
         begin(state, start, setup)
     before = _stored(setup, state, first * steps)
+    of_casing = CasingMotion.room(setup.moving, steps, scene.record.rounds_of_spectrum)
     contacts, done, end, worked = 0, 0, RUNNING, [0.0]
     worn, tau, words, moves = _worn(setup, state), nan, [TOO_SHORT], 0
     at_edges = [Rounds.unknown(scene.rounds, worn) for _ in setup.edges]
@@ -196,6 +220,9 @@ def march(scene: Scene, setup: Setup, start: FinalState | Worn | None = None) ->
                 gauges[row - 1] = modal @ setup.Phi_gauges.T
             if most:
                 most.add(done + 1, of_kernel[3].states)
+            if of_casing:
+                of_casing.add(of_kernel[3].casing)
+                end = ESCAPED if of_casing.largest > setup.bound else end
         done += 1
         if done in judged or end != RUNNING:
             whole = end == RUNNING
@@ -212,7 +239,7 @@ def march(scene: Scene, setup: Setup, start: FinalState | Worn | None = None) ->
         end,
         ledger,
         unsolved=int(state.solver.unsolved[0]),
-        at_rest=strips.touches and contacts == 0 and ledger.blade_before == 0.0,
+        at_rest=strips.touches and contacts == 0 and not ledger.stored_before,
         least_sliding=float(state.slowest[0]),
     )
     status = judge(facts)
@@ -236,6 +263,7 @@ def march(scene: Scene, setup: Setup, start: FinalState | Worn | None = None) ->
         judged=u_r[-of_spectrum:, :judged],
         states=states.reshape(-1, states.shape[2])[:, : len(setup.Phi)] @ setup.Phi.T,
         **(_once(most, setup) if most else {}),
+        casing=of_casing,
         ends=setup.places.ends,
         wear=strips.thickness * state.eps_p,
         force_peak=forces[:, 0],
@@ -292,11 +320,16 @@ def _worn(setup: Setup, state: State) -> float:
     return float(volume_of(depth, places.width, places.radius))
 
 
-def _stored(setup: Setup, state: State, steps: int) -> tuple[float, float]:
-    """Energies, J, of the blade and of the rods under its tip, after so many ``steps``."""
+def _stored(setup: Setup, state: State, steps: int) -> tuple[float, ...]:
+    """Energies, J, after so many ``steps``: of the blade, of the rods under its tip, of the casing.
+
+    The last in two parts, kinetic and elastic.
+    """
     strips, energy = setup.strips, SCHEMES[setup.scheme].energy
-    blade = energy(setup.omega, setup.damping_ratio, setup.h, state.motion, steps % TURNS)
-    return blade, float(state.covered.strips.stored @ strips.area * strips.thickness)
+    motion, now = state.motion, steps % TURNS
+    blade = energy(setup.omega, setup.damping_ratio, setup.h, motion, now)
+    rods = float(state.covered.strips.stored @ strips.area * strips.thickness)
+    return blade, rods, *setup.moving.energies(setup.h, motion, now, setup.omega.size)
 
 
 def _place(
@@ -317,14 +350,16 @@ def _place(
 
 
 def _ledger(
-    energies: NDArray[np.float64], before: tuple[float, float], after: tuple[float, float]
+    energies: NDArray[np.float64], before: tuple[float, ...], after: tuple[float, ...]
 ) -> Ledger:
-    """The ledger; ``before`` and ``after``: energies of blade and rods at start and end, J."""
+    """The ledger; ``before`` and ``after``: energies as of ``_stored`` at start and end, J."""
+    on_casing, casing_before = float(energies[ON_CASING]), before[2] + before[3]
+    of_casing = on_casing + casing_before - after[2] - after[3]  # damped there
     return Ledger(
         casing=float(energies[CASING]),
-        work=float(energies[WORK]),
+        work=float(energies[WORK]) - on_casing,
         blade=after[0],
-        damping=float(energies[DAMPING]),
+        damping=float(energies[DAMPING]) - of_casing,
         elastic=after[1],
         plastic=float(energies[PLASTIC]),
         released=float(energies[RELEASED]),
@@ -332,6 +367,11 @@ def _ledger(
         elastic_before=before[1],
         friction=float(energies[FRICTION]),
         heat=float(energies[HEAT]),
+        casing_work=on_casing,
+        casing_kinetic=after[2],
+        casing_elastic=after[3],
+        casing_damping=of_casing,
+        casing_before=casing_before,
     )
 
 
@@ -376,6 +416,7 @@ def begin(state: State, start: FinalState | Worn, setup: Setup) -> None:
         q, v = integrator.motion_of(start.omega, zeta, start.h, x, y)
         q, v = (np.linalg.solve(setup.Phi, start.Phi @ part) for part in (q, v))
         x, y = integrator.turns_of(setup.omega, zeta, setup.h, q, v)
+        motion.x[rows], motion.y[rows] = start.x, start.y  # of the casing, in the frame of its step
         motion.x[rows, :n], motion.y[rows, :n] = x, y
         motion.u[rows] = motion.x[rows] @ setup.blade.Phi.T
     motion.moved[:] = start.moved

@@ -29,6 +29,7 @@ from simulate.contact.travelling import STANDING, Waves, waves
 from simulate.marching import central_difference, piecewise_exact
 from simulate.marching.friction import Modes, sliding, steps_with_one_solution
 from simulate.marching.modal import LANES, Scheme, rows_of
+from simulate.marching.moving_casing import Moving, moving_casing
 from simulate.marching.piecewise_exact import gain, share_of_end
 from simulate.marching.stability import step_limit
 from simulate.scene import LEADING, Casing, Contact, Gaps, Liner, Profile, Scene
@@ -70,7 +71,9 @@ class Setup:
     bound: float  # m, displacement beyond which a run has diverged
     damping_ratio: float
     scheme: str  # key of ``SCHEMES``
-    blade: Scheme  # the modes, with their interface rows, as the kernel reads them
+    # the modes, with their interface rows, as the kernel reads them; those of the casing behind
+    blade: Scheme
+    moving: Moving  # modes of the casing; none if it is rigid
     ramp: Ramp
     law: Law
 
@@ -105,14 +108,18 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
     limit = _limit(stiffness, contact, zeta, omega, (Phi_b, along, Phi_lean), places.footprint)
     steps = steps or _steps_per_round(integrator, scene.record.samples_per_round, Omega, limit)
     h = 2 * np.pi / Omega / steps
+    moving = moving_casing(casing.moves, places, contact.along, leans)
+    (closing, tangential, lean), marched, damped = moving.beside(
+        (Phi_b, Phi_t, Phi_lean), omega, zeta
+    )
     if (mu := contact.friction) is not None:
-        modes = sliding_modes(omega, Phi_b, Phi_t, places)
-        modes, of_rows = with_lean(modes, stiffness, Phi_lean)
-        _require_one_solution(modes, mu, zeta, h, steps, of_rows)
-    pushed = _pushed(mu, Phi_b, Phi_t, places)
+        modes = sliding_modes(marched, closing, tangential, places)
+        modes, of_rows = with_lean(modes, stiffness, lean)
+        _require_one_solution(modes, mu, damped, h, steps, of_rows)
+    pushed = _pushed(mu, closing, tangential, places)
     if leans:  # an edge moves by the lean, too
-        pushed = pushed + INERTIA * Phi_lean**2
-    compliance = np.maximum(pushed @ gain(omega, zeta, h), 0)
+        pushed = pushed + INERTIA * lean**2
+    compliance = np.maximum(pushed @ gain(marched, damped, h), 0)
     if faults := growth_fault(gaps, rom, places.xi, np.array([Omega])):
         raise SceneError(*faults)
     strips = strips_under(
@@ -128,8 +135,9 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
         else None,
     )
     _check_start(casing, strips)
-    rows = rows_of(Phi_b, Phi_t, Phi_lean)
-    blade = SCHEMES[integrator.scheme].coefficients(omega, rows, zeta, h)
+    rows = rows_of(closing, tangential, lean)
+    blade = SCHEMES[integrator.scheme].coefficients(marched, rows, damped, h)
+    blade = moving.turned(blade, omega.size, Omega * h)
     if mu is not None:
         blade = sliding(blade, strips.first_t, mu * places.secant, stiffness)
     tapers = places.slope.any()
@@ -158,6 +166,7 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
         damping_ratio=zeta,
         scheme=integrator.scheme,
         blade=blade,
+        moving=moving,
         ramp=ramp_of(casing),
         law=liner.law,
     )
@@ -224,7 +233,12 @@ def _limit(
 
 
 def _require_one_solution(
-    modes: Modes, mu: float, zeta: float, h: float, steps: int, stiffness: NDArray[np.float64]
+    modes: Modes,
+    mu: float,
+    zeta: float | NDArray[np.float64],
+    h: float,
+    steps: int,
+    stiffness: NDArray[np.float64],
 ) -> None:
     """Refuse a step in which the forces of a sliding tip are not unique.
 

@@ -1,6 +1,6 @@
 """Casing of a scene: the gap that it leaves, and its distortion over the angle and over time."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import product
 from math import ceil, gcd, radians
@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pydantic import Field
 
-from geometry.base import RPM, Settings, SettingsError, checked, known, shifted
+from geometry.base import RPM, Fault, Settings, SettingsError, checked, known, require, shifted
 from geometry.tip import EDGES, counted, slope_of_line
+from simulate.scene.casing_modes import AnyModes, CasingMode, Ring
 from simulate.scene.tables import (
     LARGEST_DEPTH,
     AnyLine,
@@ -168,7 +169,10 @@ def side_bands(k: int, harmonics: Iterable[int]) -> set[int]:
 
 
 class Casing(Settings):
-    """Rigid casing, whose distortion grows over a ramp or follows a table, and may travel."""
+    """Casing, whose distortion grows over a ramp or follows a table, and may travel.
+
+    It is rigid, unless it has modes.
+    """
 
     either: ClassVar = [("harmonics", "table"), ("ramp_rounds", "ramp")]
     hints: ClassVar = {
@@ -212,8 +216,26 @@ class Casing(Settings):
         default=None, description="Instead of ramp_rounds: the distortion over the revolutions"
     )
 
+    modes: AnyModes | None = Field(
+        default=None,
+        min_length=1,
+        max_length=32,
+        description="Modes of a casing that moves under the contact force; by default it is rigid. "
+        "Or a CSV file with these keys as columns",
+    )
+    ring: Ring | None = Field(
+        default=None, description="The same of a casing that is a free thin ring"
+    )
+
     @checked
     def _one_slope(self) -> None:
+        require(
+            (
+                self.modes is None or self.ring is None,
+                Fault("does not go with casing.modes: take one of them out", "ring"),
+            ),
+            kind=SettingsError,
+        )
         if self.slope is not None and self.line is not None:
             raise SettingsError(
                 "does not go with casing.line, which has a slope of its own", key="slope"
@@ -235,6 +257,11 @@ class Casing(Settings):
         """Shift of the rotor, m, at ``Omega`` (rad/s); ``f1`` in Hz."""
         shift = self.axial_shift_um or 0.0
         return 1e-6 * (shift.at(Omega, f1) if isinstance(shift, Shift) else shift)
+
+    @property
+    def moves(self) -> Sequence[CasingMode]:
+        """Modes in which it moves; none if it is rigid."""
+        return self.ring.modes if self.ring else self.modes or ()
 
     @property
     def at_start(self) -> float:

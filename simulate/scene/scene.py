@@ -281,7 +281,23 @@ class Scene(SettingsFile):
         stiff = liner.rigid_key or f"law.kind: {liner.law.called}"
         needs = "needs `integrator: {scheme: piecewise-exact, steps_per_round: ...}`: "
         key, _, value = stiff.partition(": ")
+        moves = f"casing.{'ring' if self.casing.ring else 'modes'}" if self.casing.moves else ""
         require(
+            (
+                exact or not moves,
+                Fault(
+                    f"{needs}central differences keep steps in which the casing stands elsewhere",
+                    moves,
+                ),
+            ),
+            (
+                not (moves and liner.rigid_key),
+                Fault(
+                    f"does not go with liner.{stiff}: a rigid casing is met at the end of a step, "
+                    "one that moves in its middle: take one of them out",
+                    moves,
+                ),
+            ),
             (
                 exact or not liner.rigid_key,
                 Fault(

@@ -68,6 +68,32 @@ def from_csv(model: type[Settings], x: Columns, y: Columns) -> BeforeValidator:
     return BeforeValidator(read)
 
 
+def rows_from_csv(model: type[Settings]) -> BeforeValidator:
+    """Reads a list of a ``model`` from the rows of a CSV file, whose columns are its keys."""
+
+    def read(value: Any) -> Any:
+        """The models in the file at a path; any other value as it is."""
+        if not isinstance(value, str | Path):
+            return value
+        with unquoted(value):
+            try:
+                (_, header), *rows = list(csv_rows(value)) or [(1, [])]
+                return [_row(model, header, *row) for row in rows]
+            except ValueError as error:
+                raise ValueError(f"{value}: {error}") from None
+
+    return BeforeValidator(read)
+
+
+def _row(model: type[Settings], header: Sequence[str], line: int, cells: Sequence[str]) -> Settings:
+    """The ``model`` in a line of a CSV file."""
+    values = dict(zip(header, numbers(cells, header, line), strict=True))
+    try:
+        return check_settings(model, values, "")
+    except ValueError as error:
+        raise ValueError(f"line {line}: {error}") from None
+
+
 def _columns(lines: list[tuple[int, list[str]]], x: Columns, y: Columns) -> dict[str, list[float]]:
     """Both columns of a CSV file, in their units, by the keys that their names stand for."""
     (at, header), *rows = lines or [(1, [])]

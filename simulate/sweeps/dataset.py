@@ -62,11 +62,17 @@ ENERGIES = (
     "another; elastic_before: elastic at that start; numerical: created (> 0) or lost (< 0) by the "
     "scheme = work + elastic - elastic_before + plastic + released - casing"
 )
+OF_CASING = (
+    "; casing_work: of the contact forces on the motion of the casing; casing_kinetic, "
+    "casing_elastic: its energy at the end; casing_damping: dissipated in it; casing_before: its "
+    "energy at the start"
+)
 OF_FRICTION = (
-    " - friction; friction: of work, that of the tangential forces; heat: of friction, from the "
-    "shaft"
+    "; friction: of work and casing_work, that of the tangential forces; heat: of friction, from "
+    "the shaft"
 )
 BY_FRICTION = ("friction", "heat")  # energies of a run with friction alone
+BY_CASING = tuple(f"casing_{what}" for what in ("work", "kinetic", "elastic", "damping", "before"))
 VARIABLES = {  # of each run: dimensions beside the speed, unit, meaning
     "status": ("", "1", "how the run ended"),
     "reason": ("", "1", "why a run is without contact; empty otherwise"),
@@ -115,6 +121,13 @@ VARIABLES = {  # of each run: dimensions beside the speed, unit, meaning
     "beside": ("judged", "m", "largest line on no integer order that lasts; 0 without one"),
     "beside_order": ("judged", "1", "f / Omega of that line; nan without one"),
     "free": ("", "1", "1 where the largest line at xi = 1/16 is a free vibration of the start"),
+    "casing_motion": ("", *of_runs()["casing_motion"].said),
+    "casing_spectrum": (
+        "casing_mode engine_order",
+        "m",
+        "radial amplitude of a mode of the casing, anywhere around it, in the frame of the casing, "
+        "over the revolutions of the spectrum",
+    ),
     "history": (
         "chord history_time",
         "m",
@@ -156,6 +169,8 @@ COORDINATES = {  # dimensions, unit, meaning
     "engine_order": ("engine_order", "1", "frequency over Omega"),
     "judged": ("judged", "1", "chord fraction at which responses are judged"),
     "order": ("order", "1", "engine order"),
+    "casing_order": ("casing_mode", "1", "nodal diameters of a mode of the casing"),
+    "casing_frequency": ("casing_mode", "Hz", "its natural frequency"),
     "chord": ("chord", "1", "chord fraction of the place"),
     "history_time": ("history_time", "1", "revolutions since the start"),
     "time": ("time", "1", "revolutions since {since}"),
@@ -168,7 +183,7 @@ COORDINATES = {  # dimensions, unit, meaning
     "gauge_time": ("gauge_time", "1", "revolutions since {since}"),
     "window": ("window", "1", "revolutions since the start, middle of a window"),
     "bound": ("bound", "1", "end of the range"),
-    "energy": ("energy", "", ENERGIES + "{of_friction}"),
+    "energy": ("energy", "", ENERGIES + "{terms}{of_casing}{of_friction}"),
     "observable": ("observable", "", ""),
 }
 GAP_OF_SPEED = (SPEED, "strip"), "m", "gap at the speed"  # another at each
@@ -419,9 +434,12 @@ def of_run(run: Run) -> xr.Dataset:
         if by_observable := by_name or unknown:
             values |= {name: [*by_observable.values()], "observable": [*by_observable]}
     final = scene.record.end and run.outcome.final
+    moves, slides = bool(scene.casing.moves), scene.contact.friction is not None
     said = {
         "record": scene.record,
-        "of_friction": OF_FRICTION if scene.contact.friction is not None else "",
+        "terms": " + casing_work" * moves + " - friction" * slides,
+        "of_casing": OF_CASING * moves,
+        "of_friction": OF_FRICTION * slides,
         "since": "the end of the run" if scene.until else "the start",
         "second_run": "twice to an eighth of the step; nan where it is not checked"
         if checks
@@ -536,22 +554,25 @@ def _of_march(run: Run) -> dict[str, Any]:
 
 def _energies(run: Run) -> dict[str, Any]:
     """The ledger, J; ``ENERGIES`` defines each."""
-    unknown, ledger = () if run.scene.contact.friction else BY_FRICTION, run.outcome.ledger
+    ledger, unknown = run.outcome.ledger, () if run.scene.contact.friction else BY_FRICTION
+    unknown += () if run.outcome.casing else BY_CASING
     energies = asdict(ledger) | {"numerical": ledger.numerical}
     of_run = {name: value for name, value in energies.items() if name not in unknown}
     return {"energy": [*of_run], "ledger": [*of_run.values()]}
 
 
 def _of_friction(run: Run) -> dict[str, Any]:
-    """Stability of the blade in sliding contact, and whether it slid."""
+    """Stability of the blade in sliding contact on a rigid casing, and whether it slid."""
     scene, setup = run.scene, run.setup
+    slid = {"least_sliding": run.outcome.facts.least_sliding}
+    if scene.casing.moves:
+        return slid
     modes = sliding_modes(setup.omega, setup.Phi_b, setup.Phi_t, setup.places)
     k, mu = strip_stiffness(scene.liner, setup.places), known(scene.contact.friction, "friction")
     rows, of_rows = with_lean(modes, k, setup.Phi_lean)
-    return {
+    return slid | {
         "mu_crit": mu_crit(modes, k),
         "growth_rate": growth_rate(rows, mu, scene.damping_ratio, of_rows),
-        "least_sliding": run.outcome.facts.least_sliding,
     }
 
 
@@ -561,6 +582,7 @@ def _asked_for(run: Run) -> dict[str, Any]:
     outputs = (
         (record.wear, lambda run: {"wear": run.outcome.wear.astype(np.float32)}),
         (record.spectrum_rounds, of_spectrum),
+        (scene.casing.moves, _of_casing),
         (record.history, _of_history),
         (record.states_rounds, _of_states),
         (record.contact_force, _of_forces),
@@ -628,6 +650,23 @@ def of_spectrum(run: Run) -> dict[str, Any]:
         "judged": [*JUDGED],
         "order": orders,
     }
+
+
+def _of_casing(run: Run) -> dict[str, Any]:
+    """Motion of a casing that moves, and its spectrum by mode; nan without a result."""
+    motion, record = known(run.outcome.casing, "casing"), run.scene.record
+    modes = run.scene.casing.moves
+    values: dict[str, Any] = {
+        "casing_motion": motion.largest,
+        "casing_order": [mode.order for mode in modes],
+        "casing_frequency": [mode.frequency_Hz for mode in modes],
+    }
+    if record.spectrum_rounds:
+        bins = record.rounds_of_spectrum * record.samples_per_round // 2 + 1
+        whole = run.outcome.status in WITH_RESULT
+        spectra = motion.spectrum() if whole else np.full((len(modes), bins), np.nan)
+        values["casing_spectrum"] = spectra.astype(np.float32)
+    return values
 
 
 def _of_forces(run: Run) -> dict[str, Any]:

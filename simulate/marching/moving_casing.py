@@ -1,0 +1,222 @@
+"""A casing that moves: its modes are columns beside those of the blade.
+
+Of a pair of n diameters the casing moves outward by a cos(n phi) + b sin(n phi), phi in the casing.
+The kernel marches the pair in the frame of the blade in the middle of each step, theta = phi -
+Omega t, in which the rods stand still over the step,
+
+    p = a cos(n Omega t) + b sin(n Omega t),    q = -a sin(n Omega t) + b cos(n Omega t).
+
+At the start of a step both coordinates of p and q turn by n Omega h: what is turned are velocities
+in the standing frame, in which the damping acts. Within the step they are modes as those of the
+blade, whose rows take the casing from the tip: u is *tip less casing*. Turning changes u without
+moving the blade, as the liner does that the casing brings under the tip, and is its work.
+
+The casing takes all of the contact force: of a casing with slope s its radial part and -s times
+that along the axis; and its tangential part, where there is one.
+"""
+
+from collections import deque
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from simulate.contact.compiled import compiled, compiled_sums
+from simulate.contact.ledger import ON_CASING
+from simulate.contact.places import Places
+from simulate.marching import piecewise_exact
+from simulate.marching.modal import Motion, Scheme
+from simulate.scene.casing_modes import CasingMode
+
+LONGEST_FOOTPRINT = 0.1  # n L / (2 R): half the phase of a mode over the arc L of one row
+PER_LOBE, FINE = 64, 1.3e-3  # places around the casing in a period of the highest order; to 0.13 %
+FEWER = 8  # of these places are looked at first: one in so many
+BETWEEN = 1 / np.cos(np.pi * FEWER / PER_LOBE)  # the largest between these over that at them
+type Rows = tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]
+
+
+class Turning(NamedTuple):
+    """Columns of the casing, as the kernel reads them."""
+
+    columns: tuple[int, int]  # first of them, and the one after the last
+    pairs: NDArray[np.int64]  # (pairs,), first column of each
+    sine: NDArray[np.float64]  # (pairs,), of n Omega h
+    versine: NDArray[np.float64]  # (pairs,), 1 - cos(n Omega h)
+    rows: NDArray[np.float64]  # (pairs, 2, rows), interface rows of each
+
+
+@compiled_sums
+def turn(scheme, motion, last):
+    """Turn the pairs to the frame of a step that begins at turn ``last``, and displace its rows."""
+    x, y, u, turning = motion.x, motion.y, motion.u, scheme.turning
+    for p in range(turning.pairs.size):
+        k, sine, versine = turning.pairs[p], turning.sine[p], turning.versine[p]
+        # by the changes: the sum of squares is kept to their round-off
+        x_p = sine * x[last, k + 1] - versine * x[last, k]
+        x_q = -sine * x[last, k] - versine * x[last, k + 1]
+        y_p = sine * y[last, k + 1] - versine * y[last, k]
+        y_q = -sine * y[last, k] - versine * y[last, k + 1]
+        x[last, k] += x_p
+        x[last, k + 1] += x_q
+        y[last, k] += y_p
+        y[last, k + 1] += y_q
+        for row in range(u.shape[1]):
+            u[last, row] += turning.rows[p, 0, row] * x_p + turning.rows[p, 1, row] * x_q
+
+
+@compiled
+def book(scheme, strips, state, step):
+    """Book the work of the contact forces on the casing, which moves every rod in a step."""
+    motion, columns = state.motion, scheme.turning.columns
+    for k in range(columns[0], columns[1]):
+        way = motion.x[step.now, k] - motion.x[step.last, k]
+        state.energies[ON_CASING] -= motion.modal[k] * way
+    for i in range(strips.g0.size):
+        state.covered.strips[i].ramp = np.nan
+
+
+@dataclass(frozen=True)
+class Moving:
+    """Modes of the casing as columns, c of them: two of each pair, one of each of order 0."""
+
+    order: NDArray[np.int64]  # (c,), nodal diameters
+    twin: NDArray[np.bool_]  # (c,), whether it is the second of a pair
+    omega: NDArray[np.float64]  # (c,), rad/s
+    zeta: NDArray[np.float64]  # (c,), damping ratios
+    radial: NDArray[np.float64]  # (c,), kg^-1/2, radial motion by a coordinate of 1
+    rows: Rows  # (m, c) each: closing, tangential and of the lean, as those of the blade
+
+    def beside(
+        self, rows: Rows, omega: NDArray[np.float64], zeta: float
+    ) -> tuple[Rows, NDArray[np.float64], float | NDArray[np.float64]]:
+        """``rows``, frequencies and damping of the blade with those of the casing after them."""
+        if not self.order.size:
+            return rows, omega, zeta
+        closing, along, lean = (np.hstack(pair) for pair in zip(rows, self.rows, strict=True))
+        zetas = np.concatenate([np.full(omega.size, zeta), self.zeta])
+        return (closing, along, lean), np.concatenate([omega, self.omega]), zetas
+
+    def turned(self, scheme: Scheme, first: int, angle: float) -> Scheme:
+        """``scheme``, whose columns from ``first`` on turn by n times an ``angle``, rad, a step."""
+        if not self.order.size:
+            return scheme
+        pairs = first + np.flatnonzero(self.twin) - 1
+        angles = self.order[self.twin] * angle
+        turning = Turning(
+            columns=(first, first + self.order.size),
+            pairs=pairs,
+            sine=np.sin(angles),
+            versine=2 * np.sin(angles / 2) ** 2,
+            rows=np.ascontiguousarray(
+                np.stack([scheme.Phi[:, pairs].T, scheme.Phi[:, pairs + 1].T], axis=1)
+            ),
+        )
+        return scheme._replace(turn=turn, book=book, turning=turning)
+
+    def energies(self, h: float, motion: Motion, now: int, first: int) -> tuple[float, float]:
+        """Kinetic and elastic energy, J, at turn ``now``; its columns begin at ``first``."""
+        columns = slice(first, first + self.order.size)
+        x, y = motion.x[[now], columns], motion.y[[now], columns]
+        x, v = piecewise_exact.motion_of(self.omega, self.zeta, h, x, y)
+        return float(v @ v) / 2, float((self.omega * x) @ (self.omega * x)) / 2
+
+    @property
+    def modes(self) -> NDArray[np.int64]:
+        """First column of each mode (modes,)."""
+        return np.flatnonzero(~self.twin)
+
+    def around(self, phi: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Radial motion (c, angles), m, at ``phi``, rad, by a coordinate of 1."""
+        quarter = np.where(self.twin, np.pi / 2, 0.0)[:, None]
+        return self.radial[:, None] * np.cos(self.order[:, None] * phi - quarter)
+
+
+@dataclass
+class CasingMotion:
+    """Radial motion of the casing over a run."""
+
+    moving: Moving
+    steps: int  # in a revolution
+    around: NDArray[np.float64]  # (c, angles), as of ``Moving.around``
+    squares: NDArray[np.float64]  # (c, modes), of the radial values of each mode
+    kept: deque[NDArray[np.float64]]  # (samples, c), coordinates in each of the last revolutions
+    largest: float = 0.0  # m, anywhere and at any time
+
+    @classmethod
+    def room(cls, moving: Moving, steps: int, rounds: int) -> Self | None:
+        """Before the first revolution, of which the last ``rounds`` are kept; None: it is rigid."""
+        if not moving.order.size:
+            return None
+        phi = np.linspace(0, 2 * np.pi, PER_LOBE * max(moving.order.max(), 1), endpoint=False)
+        of_mode = np.cumsum(~moving.twin)[:, None] - 1 == np.arange(moving.modes.size)
+        squares = of_mode * moving.radial[:, None] ** 2
+        return cls(moving, steps, moving.around(phi), squares, deque(maxlen=rounds))
+
+    def add(self, x: NDArray[np.float64]) -> None:
+        """Add a revolution: coordinates (samples, c) after steps evenly apart."""
+        self.kept.append(x.copy())
+        most = np.sqrt((x * x) @ self.squares).sum(axis=1)  # were all at their largest in one place
+        near = x[most > self.largest * (1 + FINE)]
+        if len(near):  # at some of the angles first: between them no sum of waves is much farther
+            far = np.abs(near @ self.around[:, ::FEWER]).max(axis=1)
+            near = near[far * BETWEEN > max(far.max(), self.largest)]
+            self.largest = float(np.abs(near @ self.around).max(initial=self.largest))
+
+    def spectrum(self) -> NDArray[np.float64]:
+        """Amplitudes (modes, bins), m, anywhere around the casing, over the revolutions kept.
+
+        In the frame of the casing, of waves that go with the rotor and against it, together. Bins
+        as of ``signals.spectrum``.
+        """
+        moving, samples = self.moving, len(self.kept[0])
+        first, pair = moving.modes, moving.order[moving.modes] > 0
+        numbers = np.arange(1, samples + 1) * (self.steps // samples)
+        theta = 2 * np.pi * (numbers - 0.5) / self.steps  # of the blade, in the middle of the step
+        p, q = (np.stack(self.kept)[..., columns] for columns in (first, first + pair))
+        z = moving.radial[first] * (p + 1j * pair * q)  # in the frame of the blade
+        z = (z * np.exp(1j * theta[:, None] * moving.order[first])).reshape(-1, first.size)
+        waves = np.abs(np.fft.fft(z, axis=0).T) / len(z)
+        half = len(z) // 2
+        both = waves[:, : half + 1].copy()
+        both[:, 1:] += waves[:, : -half - 1 : -1]
+        if len(z) % 2 == 0:
+            both[:, -1] /= 2  # one bin
+        return both
+
+
+def moving_casing(modes: Sequence[CasingMode], places: Places, along: bool, leans: bool) -> Moving:
+    """The ``modes`` of a casing under strips at ``places``.
+
+    ``along``: with rows of the tangential motion; ``leans``: with rows of the lean, where the edges
+    of the tip lie half a footprint from the middle.
+    """
+    columns = [
+        (mode, twin) for mode in modes for twin in ((False, True) if mode.order else (False,))
+    ]
+    c, half = len(columns), places.footprint / places.radius / 2
+    closing, tangential, lean = (
+        np.zeros((len(places.xi) if wanted else 0, c)) for wanted in (True, along, leans)
+    )
+    for k, (mode, twin) in enumerate(columns):
+        radial, of_sine, axial = mode.phi
+        n, quarter = mode.order, np.pi / 2 if twin else 0.0
+        outward = radial - places.slope * axial
+        if leans:
+            ahead, behind = (
+                -outward * np.cos(n * (places.theta + side * half) - quarter) for side in (1, -1)
+            )
+            closing[:, k], lean[:, k] = (ahead + behind) / 2, ahead - behind
+        else:
+            closing[:, k] = -outward * np.cos(n * places.theta - quarter)
+        if along:
+            tangential[:, k] = -of_sine * np.sin(n * places.theta - quarter)
+    return Moving(
+        order=np.array([mode.order for mode, _ in columns], int),
+        twin=np.array([twin for _, twin in columns], bool),
+        omega=2 * np.pi * np.array([mode.frequency_Hz for mode, _ in columns], float),
+        zeta=np.array([mode.damping_ratio for mode, _ in columns], float),
+        radial=np.array([mode.phi[0] for mode, _ in columns], float),
+        rows=(closing, tangential, lean),
+    )
