@@ -113,10 +113,46 @@ def table(margins: Iterable[Margin]) -> list[list[str]]:
 def speed(row: Critical) -> str:
     """A critical speed, rpm, with its uncertainty; one at an end of a sweep has none."""
     error = row["rpm_error"]
+    if "rpm_to" in row:
+        return range_of(row)
     if row["bound"] or not error:
         return f"{row['rpm']:.0f}{' (end: rises further)' * row['bound']}"
     bound = ("≥" if row["least"] else "±") + markdown.two_digits(error)
     return f"{row['rpm']:.0f} {bound if isfinite(error) else markdown.NOT_KNOWN}"
+
+
+def range_of(met: Mapping[str, Any]) -> str:
+    """Speeds, rpm, at which a casing meets the blade: from the free one to one in contact."""
+    return f"{met['rpm']:.0f} to " + (f"{met['rpm_to']:.0f}" if met["rpm_to"] else "above")
+
+
+def of_casing(whirls: Iterable[Mapping[str, Any]], relative: float) -> list[Critical]:
+    """The ``whirls`` of a scene as critical speeds; ``relative``: error of the frequencies."""
+    return [
+        {
+            "what": f"fed by rotation, with order {mode['order']} of the casing",
+            "modes": [met["mode"]],
+            "k": met["f_over_Omega"],
+            "quadratic_rpm": None,
+            "bound": False,
+            "rpm_error": relative * met["rpm"],
+            "least": True,
+            **{name: met[name] for name in ("rpm", "rpm_to")},
+        }
+        for mode in whirls
+        for met in mode["met"]
+    ]
+
+
+def fed(whirls: Iterable[Mapping[str, Any]]) -> Iterator[str]:
+    """A line for each mode of the casing: where rotation feeds blade and casing in contact."""
+    for mode in whirls:
+        ranges = ", ".join(f"mode {met['mode']} at {range_of(met)}" for met in mode["met"])
+        none = f"none of modes 1 to {mode['modes']} up to {mode['up_to']:.0f}"
+        yield (
+            f"Casing of order {mode['order']}, {mode['Hz']:.6g} Hz: rotation feeds a lasting rub "
+            f"where n Ω = f + f_n, from the free blade to one in contact, rpm: {ranges or none}."
+        )
 
 
 def share(margin: float | None) -> str:
@@ -136,7 +172,7 @@ def nearest(campbell: Mapping[str, Any], margins: Iterable[Margin], name: str) -
         texts = [_text(row) for row in crossings if sign * (row["speed_margin"] or 0.0) > 0]
         found = [*texts, none_of(campbell, *sorted((line_rpm, end)))][0]
         yield f"{name.capitalize()} speed {line_rpm:.0f} rpm, next crossing {side}: {found}."
-    for row in [row for row in of_line if not row["quadratic_rpm"]][:1]:
+    for row in [row for row in of_line if not row["quadratic_rpm"] and "rpm_to" not in row][:1]:
         yield f"{name.capitalize()} speed {line_rpm:.0f} rpm, nearest rub peak: {_text(row)}."
 
 

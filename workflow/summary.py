@@ -86,7 +86,7 @@ PARTS = {  # of uncertainties, that may not be known
 # Values of a scene taken from its answers as they are.
 COPIED = (
     *("scene", "blade", "f1_Hz", "gap_m", "dofs", "status", "reasons", "ends", "swept", "free"),
-    *("checks", "model_error", "no_torque", "mu_crit", "sweep_s"),
+    *("checks", "model_error", "no_torque", "mu_crit", "sweep_s", "whirls"),
 )
 
 COURSE = {  # of ``Course``: unit and its scale from SI
@@ -159,6 +159,7 @@ def _scene(
         for row in rows
         if row["k"]
     ]
+    of_casing = margins.of_casing(results["whirls"], _model_error(results))
     return {
         **{key: results[key] for key in COPIED},
         "answers_s": sum(peak.seconds for peak in [*found, *worst]),
@@ -169,7 +170,7 @@ def _scene(
         "operating": campbell,
         "margins": margins.rows(
             campbell,
-            rub_peaks,
+            [*rub_peaks, *of_casing],
             _model_error(results),
             None in results["model_error"].values(),
             results["seen"],
@@ -434,6 +435,7 @@ def notes(scene: Mapping[str, Any]) -> list[str]:
     """Crossings, ends of the sweep, operating lines, unknown parts, cost of uncertainties."""
     campbell = scene["operating"]
     lines = [*_without_peaks(scene), *crossings_and_ends(scene)]
+    lines += margins.fed(scene["whirls"])
     for name in campbell["lines"]:
         lines += margins.nearest(campbell, scene["margins"], name)
     lines.append(margins.covered(campbell))

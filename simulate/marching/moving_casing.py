@@ -53,17 +53,14 @@ def turn(scheme, motion, last):
     x, y, u, turning = motion.x, motion.y, motion.u, scheme.turning
     for p in range(turning.pairs.size):
         k, sine, versine = turning.pairs[p], turning.sine[p], turning.versine[p]
+        x_p, x_q, y_p, y_q = x[last, k], x[last, k + 1], y[last, k], y[last, k + 1]
         # by the changes: the sum of squares is kept to their round-off
-        x_p = sine * x[last, k + 1] - versine * x[last, k]
-        x_q = -sine * x[last, k] - versine * x[last, k + 1]
-        y_p = sine * y[last, k + 1] - versine * y[last, k]
-        y_q = -sine * y[last, k] - versine * y[last, k + 1]
-        x[last, k] += x_p
-        x[last, k + 1] += x_q
-        y[last, k] += y_p
-        y[last, k + 1] += y_q
+        way_p, way_q = sine * x_q - versine * x_p, -sine * x_p - versine * x_q
+        x[last, k], x[last, k + 1] = x_p + way_p, x_q + way_q
+        y[last, k] = y_p + (sine * y_q - versine * y_p)
+        y[last, k + 1] = y_q - (sine * y_p + versine * y_q)
         for row in range(u.shape[1]):
-            u[last, row] += turning.rows[p, 0, row] * x_p + turning.rows[p, 1, row] * x_q
+            u[last, row] += turning.rows[p, 0, row] * way_p + turning.rows[p, 1, row] * way_q
 
 
 @compiled
@@ -94,7 +91,7 @@ class Moving:
         """``rows``, frequencies and damping of the blade with those of the casing after them."""
         if not self.order.size:
             return rows, omega, zeta
-        closing, along, lean = (np.hstack(pair) for pair in zip(rows, self.rows, strict=True))
+        closing, along, lean = map(np.hstack, zip(rows, self.rows, strict=True))
         zetas = np.concatenate([np.full(omega.size, zeta), self.zeta])
         return (closing, along, lean), np.concatenate([omega, self.omega]), zetas
 
@@ -102,35 +99,45 @@ class Moving:
         """``scheme``, whose columns from ``first`` on turn by n times an ``angle``, rad, a step."""
         if not self.order.size:
             return scheme
-        pairs = first + np.flatnonzero(self.twin) - 1
-        angles = self.order[self.twin] * angle
+        pairs, angles = first + np.flatnonzero(self.twin) - 1, self.order[self.twin] * angle
         turning = Turning(
             columns=(first, first + self.order.size),
             pairs=pairs,
             sine=np.sin(angles),
             versine=2 * np.sin(angles / 2) ** 2,
-            rows=np.ascontiguousarray(
-                np.stack([scheme.Phi[:, pairs].T, scheme.Phi[:, pairs + 1].T], axis=1)
-            ),
+            rows=np.stack([scheme.Phi.T[pairs], scheme.Phi.T[pairs + 1]], axis=1),
         )
         return scheme._replace(turn=turn, book=book, turning=turning)
 
     def energies(self, h: float, motion: Motion, now: int, first: int) -> tuple[float, float]:
         """Kinetic and elastic energy, J, at turn ``now``; its columns begin at ``first``."""
-        columns = slice(first, first + self.order.size)
-        x, y = motion.x[[now], columns], motion.y[[now], columns]
+        x, y = (z[[now], first : first + self.order.size] for z in (motion.x, motion.y))
         x, v = piecewise_exact.motion_of(self.omega, self.zeta, h, x, y)
         return float(v @ v) / 2, float((self.omega * x) @ (self.omega * x)) / 2
 
-    @property
-    def modes(self) -> NDArray[np.int64]:
-        """First column of each mode (modes,)."""
-        return np.flatnonzero(~self.twin)
 
-    def around(self, phi: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Radial motion (c, angles), m, at ``phi``, rad, by a coordinate of 1."""
-        quarter = np.where(self.twin, np.pi / 2, 0.0)[:, None]
-        return self.radial[:, None] * np.cos(self.order[:, None] * phi - quarter)
+def moving_casing(modes: Sequence[CasingMode], places: Places, along: bool, leans: bool) -> Moving:
+    """The ``modes`` of a casing under strips at ``places``.
+
+    ``along``: with rows of the tangential motion; ``leans``: with rows of the lean, where the edges
+    of the tip lie half a footprint from the middle.
+    """
+    both = [(mode, twin) for mode in modes for twin in range(1 + (mode.order > 0))]
+    values = [
+        (mode.order, twin, 2 * np.pi * mode.frequency_Hz, mode.damping_ratio, *mode.phi)
+        for mode, twin in both
+    ]
+    order, twin, omega, zeta, radial, of_sine, axial = np.reshape(values, (-1, 7)).T
+    half, quarter = leans * places.footprint / places.radius / 2, np.pi / 2 * twin
+    outward = radial - places.slope[:, None] * axial
+    middle, ahead, behind = (
+        order * (places.theta + side * half)[:, None] - quarter for side in (0, 1, -1)
+    )
+    ahead, behind = -outward * np.cos(ahead), -outward * np.cos(behind)
+    m = len(places.xi)
+    tangential, lean = (-of_sine * np.sin(middle))[: m * along], (ahead - behind)[: m * leans]
+    rows = (ahead + behind) / 2, tangential, lean
+    return Moving(order.astype(int), twin > 0, omega, zeta, radial, rows)
 
 
 @dataclass
@@ -139,7 +146,7 @@ class CasingMotion:
 
     moving: Moving
     steps: int  # in a revolution
-    around: NDArray[np.float64]  # (c, angles), as of ``Moving.around``
+    around: NDArray[np.float64]  # (c, angles), m, radial motion by a coordinate of 1
     squares: NDArray[np.float64]  # (c, modes), of the radial values of each mode
     kept: deque[NDArray[np.float64]]  # (samples, c), coordinates in each of the last revolutions
     largest: float = 0.0  # m, anywhere and at any time
@@ -149,10 +156,14 @@ class CasingMotion:
         """Before the first revolution, of which the last ``rounds`` are kept; None: it is rigid."""
         if not moving.order.size:
             return None
-        phi = np.linspace(0, 2 * np.pi, PER_LOBE * max(moving.order.max(), 1), endpoint=False)
-        of_mode = np.cumsum(~moving.twin)[:, None] - 1 == np.arange(moving.modes.size)
-        squares = of_mode * moving.radial[:, None] ** 2
-        return cls(moving, steps, moving.around(phi), squares, deque(maxlen=rounds))
+        order, radial, quarter = (
+            of[:, None] for of in (moving.order, moving.radial, np.pi / 2 * moving.twin)
+        )
+        phi = np.linspace(0, 2 * np.pi, PER_LOBE * max(int(order.max()), 1), endpoint=False)
+        mode = np.cumsum(~moving.twin)[:, None]
+        squares = radial**2 * (mode == np.arange(1, mode.max() + 1))
+        around = np.asarray(radial * np.cos(order * phi - quarter), float)
+        return cls(moving, steps, around, squares, deque(maxlen=rounds))
 
     def add(self, x: NDArray[np.float64]) -> None:
         """Add a revolution: coordinates (samples, c) after steps evenly apart."""
@@ -170,53 +181,13 @@ class CasingMotion:
         In the frame of the casing, of waves that go with the rotor and against it, together. Bins
         as of ``signals.spectrum``.
         """
-        moving, samples = self.moving, len(self.kept[0])
-        first, pair = moving.modes, moving.order[moving.modes] > 0
-        numbers = np.arange(1, samples + 1) * (self.steps // samples)
-        theta = 2 * np.pi * (numbers - 0.5) / self.steps  # of the blade, in the middle of the step
-        p, q = (np.stack(self.kept)[..., columns] for columns in (first, first + pair))
-        z = moving.radial[first] * (p + 1j * pair * q)  # in the frame of the blade
-        z = (z * np.exp(1j * theta[:, None] * moving.order[first])).reshape(-1, first.size)
-        waves = np.abs(np.fft.fft(z, axis=0).T) / len(z)
-        half = len(z) // 2
-        both = waves[:, : half + 1].copy()
-        both[:, 1:] += waves[:, : -half - 1 : -1]
-        if len(z) % 2 == 0:
-            both[:, -1] /= 2  # one bin
-        return both
-
-
-def moving_casing(modes: Sequence[CasingMode], places: Places, along: bool, leans: bool) -> Moving:
-    """The ``modes`` of a casing under strips at ``places``.
-
-    ``along``: with rows of the tangential motion; ``leans``: with rows of the lean, where the edges
-    of the tip lie half a footprint from the middle.
-    """
-    columns = [
-        (mode, twin) for mode in modes for twin in ((False, True) if mode.order else (False,))
-    ]
-    c, half = len(columns), places.footprint / places.radius / 2
-    closing, tangential, lean = (
-        np.zeros((len(places.xi) if wanted else 0, c)) for wanted in (True, along, leans)
-    )
-    for k, (mode, twin) in enumerate(columns):
-        radial, of_sine, axial = mode.phi
-        n, quarter = mode.order, np.pi / 2 if twin else 0.0
-        outward = radial - places.slope * axial
-        if leans:
-            ahead, behind = (
-                -outward * np.cos(n * (places.theta + side * half) - quarter) for side in (1, -1)
-            )
-            closing[:, k], lean[:, k] = (ahead + behind) / 2, ahead - behind
-        else:
-            closing[:, k] = -outward * np.cos(n * places.theta - quarter)
-        if along:
-            tangential[:, k] = -of_sine * np.sin(n * places.theta - quarter)
-    return Moving(
-        order=np.array([mode.order for mode, _ in columns], int),
-        twin=np.array([twin for _, twin in columns], bool),
-        omega=2 * np.pi * np.array([mode.frequency_Hz for mode, _ in columns], float),
-        zeta=np.array([mode.damping_ratio for mode, _ in columns], float),
-        radial=np.array([mode.phi[0] for mode, _ in columns], float),
-        rows=(closing, tangential, lean),
-    )
+        moving, x = self.moving, np.stack(self.kept)
+        first = np.flatnonzero(~moving.twin)
+        order, numbers = moving.order[first], np.arange(1, x.shape[1] + 1)
+        # place of the blade in the middle of the step, in whose frame they are
+        theta = 2 * np.pi * (numbers / x.shape[1] - 0.5 / self.steps)[:, None]
+        z = (x[..., first] + 1j * (order > 0) * x[..., first + (order > 0)]) * moving.radial[first]
+        z = (z * np.exp(1j * order * theta)).reshape(-1, len(first))
+        waves, bins = np.abs(np.fft.fft(z, axis=0).T) / len(z), np.arange(len(z) // 2 + 1)
+        against = waves[:, -bins] * (2 * bins % len(z) > 0)  # where it is another bin
+        return waves[:, bins] + against

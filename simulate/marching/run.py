@@ -163,7 +163,8 @@ def _start(
         rows = [array[_row(done, len(array) - 1, rounds, until)] for array in kept]
         read = always or done >= rounds - record.rounds_of_spectrum
         Phi = Phi_out if read else Phi_out[: len(setup.edges)]
-        recorded = Recorded(*rows, Phi, weights, casing, setup.omega.size)
+        of_casing = {"casing": casing, "first": setup.omega.size}
+        recorded = Recorded(*rows, Phi=Phi, weights=weights, **of_casing)
         of_setup = setup.ramp, setup.bound, before + done, setup.steps
         return setup.blade, strips, state, recorded, *of_setup
 

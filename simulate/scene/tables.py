@@ -30,6 +30,7 @@ from geometry.base import (
 
 # by the name of a column: key, and factor to its unit
 type Columns = Mapping[str, tuple[str, float]]
+type Lines = list[tuple[int, list[str]]]  # number and cells of each
 
 SPEEDS: Columns = {
     **{name: (name, 1.0) for name in ("speed_over_f1", "speed_rpm")},
@@ -54,31 +55,30 @@ def from_csv(model: type[Settings], x: Columns, y: Columns) -> BeforeValidator:
     Its header names one of the columns ``x`` and one of ``y``. A fault has the path before it: that
     of the scene, and the line in it, come on top.
     """
-
-    def read(value: Any) -> Any:
-        """The model in the file at a path; any other value as it is."""
-        if not isinstance(value, str | Path):
-            return value
-        with unquoted(value):
-            try:
-                return check_settings(model, _columns(list(csv_rows(value)), x, y), "")
-            except ValueError as error:
-                raise ValueError(f"{value}: {error}") from None
-
-    return BeforeValidator(read)
+    return _of_file(lambda lines: check_settings(model, _columns(lines, x, y), ""))
 
 
 def rows_from_csv(model: type[Settings]) -> BeforeValidator:
     """Reads a list of a ``model`` from the rows of a CSV file, whose columns are its keys."""
 
+    def of_rows(lines: Lines) -> list[Settings]:
+        """One in each row below the first."""
+        (_, header), *rows = lines or [(1, [])]
+        return [_row(model, header, *row) for row in rows]
+
+    return _of_file(of_rows)
+
+
+def _of_file(of_lines: Callable[[Lines], Any]) -> BeforeValidator:
+    """Reads what the lines of the CSV file at a path hold; leaves other values unchanged."""
+
     def read(value: Any) -> Any:
-        """The models in the file at a path; any other value as it is."""
+        """What is in the file at a path; any other value as it is."""
         if not isinstance(value, str | Path):
             return value
         with unquoted(value):
             try:
-                (_, header), *rows = list(csv_rows(value)) or [(1, [])]
-                return [_row(model, header, *row) for row in rows]
+                return of_lines(list(csv_rows(value)))
             except ValueError as error:
                 raise ValueError(f"{value}: {error}") from None
 
@@ -94,7 +94,7 @@ def _row(model: type[Settings], header: Sequence[str], line: int, cells: Sequenc
         raise ValueError(f"line {line}: {error}") from None
 
 
-def _columns(lines: list[tuple[int, list[str]]], x: Columns, y: Columns) -> dict[str, list[float]]:
+def _columns(lines: Lines, x: Columns, y: Columns) -> dict[str, list[float]]:
     """Both columns of a CSV file, in their units, by the keys that their names stand for."""
     (at, header), *rows = lines or [(1, [])]
     if len(header) != 2 or header[0] not in x or header[1] not in y:

@@ -145,7 +145,8 @@ def cost(scene: Scene, rom: Rom | None, speeds: int | None = None) -> Cost:
     each = 1 + sum(run.cost for run in second_runs)
     runs = (speeds + added) * each + _checks(scene.verify == PEAKS, scene.checked_share, speeds)
     all_steps = runs * scene.rounds * steps
-    entries = sizes.n * liner.m * (sizes.across + scene.contact.along)
+    columns = sizes.n + sum(1 + (mode.order > 0) for mode in scene.casing.moves)
+    entries = columns * liner.m * (sizes.across + scene.contact.along)
     passed = ceil(liner.nu / steps)
     rods = 1 + passed + max(rods_in_footprint(sizes.footprint, sizes.radius, liner.nu), passed)
     contact = _in_contact(scene.stepping.scheme, rods, entries, sizes.touching)

@@ -50,7 +50,7 @@ def crossings_of(
     return sorted(met, key=itemgetter(2))
 
 
-def _first(rom: Rom, modes: int, degree: int, speed: float) -> NDArray[np.float64]:
+def first_frequencies(rom: Rom, modes: int, degree: int, speed: float) -> NDArray[np.float64]:
     """First natural frequencies (modes,) at a speed, over f1(0); of ``Rom.beyond`` by degree."""
     omega = rom.beyond(degree) if degree else lambda Omega: rom.modes(Omega)[0]
     return omega(speed * rom.omega1)[:modes] / rom.omega1
@@ -63,7 +63,7 @@ def crossing(rom: Rom, k: float, mode: int = 1) -> float:
     >>> round(crossing(rom, 4), 2)
     0.31
     """
-    met = crossings_of(partial(_first, rom, mode, 0), [k], 0.0, rom.Omega_m / rom.omega1)
+    met = crossings_of(partial(first_frequencies, rom, mode, 0), [k], 0.0, rom.Omega_m / rom.omega1)
     return next((speed for of, _, speed in met if of == mode), float("nan"))
 
 
@@ -90,7 +90,7 @@ def critical(rom: Rom, sought: Mapping[str, Any]) -> dict[str, Any]:
     unit, found, modes = RPM * rom.omega1, [], sought["modes"]
     for degree, (what, between) in enumerate(spans):
         met, again = (
-            crossings_of(partial(_first, rom, modes, of), sought["orders"], *between)
+            crossings_of(partial(first_frequencies, rom, modes, of), sought["orders"], *between)
             for of in (degree, 2 * degree)  # within the model the same
         )
         quadratic = {(mode, k): unit * speed for mode, k, speed in again}

@@ -34,7 +34,7 @@ from numpy.typing import NDArray
 
 from fem.worst_node import NodeStress
 from geometry.base import Say, SettingsError, known, progress, silent
-from geometry.blade import Fatigue
+from geometry.blade import MODES, Fatigue
 from geometry.tip import EDGES
 from rom.coarser import coarser
 from rom.model import Rom, RomError
@@ -52,6 +52,7 @@ from simulate.signals import gaps_at_ends, leading_gap, leading_wear, lobe_count
 from simulate.sweeps.continued import before
 from simulate.sweeps.dataset import checks, course, scene_of, statuses
 from simulate.sweeps.peak import Peak, Responses, peaks_or_largest, rise
+from simulate.sweeps.whirls import whirls
 
 JUMP_FROM = 0.05  # relative change between two models from which a jump is looked for
 LAST = 3e-3  # relative, of frequencies: the last digits of a model; a usual damping ratio
@@ -127,6 +128,7 @@ def of_sweep(
 
     ``worst``: that of ``worst_stressed``, with its results.
     """
+    of = scene_of(runs)
     return {
         "scene": runs.attrs.get("name", ""),
         "blade": runs.attrs["blade"],
@@ -139,12 +141,13 @@ def of_sweep(
         "model_error": model_error._asdict(),
         "swept": runs["speed_over_f1"].values[[0, -1]].tolist(),
         "seen": Responses.of(runs, rom).seen() if "spectrum" in runs else [],
-        "half_bin": 0.5 / scene_of(runs).record.rounds_of_spectrum,
+        "half_bin": 0.5 / of.record.rounds_of_spectrum,
         "free": int(runs["free"].sum()) if "free" in runs else 0,
-        "no_torque": scene_of(runs).no_torque,
+        "no_torque": of.no_torque,
         "mu_crit": float(runs["mu_crit"].min()) if "mu_crit" in runs else None,
         "reasons": sorted({*runs["reason"].values.astype(str)} - {""}) if "reason" in runs else [],
         "ends": ends(runs),
+        "whirls": whirls(rom, of.liner, of.casing, MODES),
         "peaks": [peak.plain() for peak in peaks],
         "worst": [peak.plain() for peak in worst],
     }

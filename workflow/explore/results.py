@@ -5,12 +5,13 @@ from math import isinf, isnan
 from typing import Any
 
 import numpy as np
+import xarray as xr
 from numpy.typing import NDArray
 
 from geometry.base import RPM
 from geometry.tip import EDGES
 from simulate.contact.places import closing_rows
-from simulate.signals import leading_gap, lobe_count
+from simulate.signals import amplitude, leading_gap, lobe_count
 from simulate.sweeps.peak import along_order
 from workflow.figures.annotations import frequencies_over_speed
 from workflow.figures.response import Response, liner_and_tip
@@ -133,6 +134,7 @@ def facts(
                 "says": "energy of the run, J",
                 "of": {str(name): plain(joules) for name, joules in energies},
             },
+            *of_casing(sweep),
             *(
                 {
                     "says": says,
@@ -147,6 +149,19 @@ def facts(
         ],
         "meanings": sweep["energy"].attrs["long_name"],
     }
+
+
+def of_casing(sweep: xr.Dataset) -> list[dict[str, Any]]:
+    """Radial motion of a casing that moves, um, largest and by mode; empty of a rigid one."""
+    if "casing_motion" not in sweep:
+        return []
+    found = {"largest": sweep["casing_motion"].values}
+    if "casing_spectrum" in sweep:
+        by_mode = amplitude(sweep["casing_spectrum"].values, rounds=1).T
+        names = zip(sweep["casing_order"].values, sweep["casing_frequency"].values, strict=True)
+        found |= {f"order {n}, {Hz:.6g} Hz": a for (n, Hz), a in zip(names, by_mode, strict=True)}
+    of = {name: plain(1e6 * values) for name, values in found.items()}
+    return [{"says": "radial motion of the casing, µm", "of": of}]
 
 
 def plain(values: Iterable[float]) -> list[float | str | None]:

@@ -24,7 +24,9 @@ from workflow.figures.annotations import (
 )
 
 SHOWN = 7  # modes, compared by the paper
-PLAIN: Mapping[str, Any] = {"lines": {}, "modes": MODES, "orders": ORDERS, "excited": {}}
+PLAIN: Mapping[str, Any] = {
+    "lines": {}, "modes": MODES, "orders": ORDERS, "excited": {}, "casing": []
+}  # fmt: skip
 FASTEST = 4  # crossings marked where no casing and no operating speed is known
 HEADROOM = 0.06  # above f1, for the labels of the engine orders
 BEHIND = {"facecolor": "white", "edgecolor": "none", "pad": 0.6}
@@ -51,6 +53,8 @@ def draw(
     margin = HEADROOM * f1.max()
     first.set_ylim(f1.min() - 2 * margin, f1.max() + margin)
     modes = _frequencies(every, rom, check, SHOWN, beyond=bool(lines))
+    for axes in (first, every):
+        _casing(axes, operating["casing"], rom.f1)
     for mode, last in enumerate(modes[-1], start=1):
         style.note(every, (every.get_xlim()[1], last), str(mode), (5, 0), va="center")
     every.set_ylim(0, 1.2 * modes.max())
@@ -117,6 +121,17 @@ def _frequencies(
         speeds, reduced = further, np.vstack([reduced, ahead])
     axes.set_xlim(0, speeds[-1])
     return reduced
+
+
+def _casing(axes: Axes, casing: Sequence[tuple[int, float]], f1_Hz: float) -> None:
+    """Frequencies that the blade sees of a casing's modes, (n, Hz) each: f_n +- n Omega."""
+    end, label = axes.get_xlim()[1], "casing, $|f_n \\pm n\\Omega|$"
+    for order, Hz in casing:
+        f = Hz / f1_Hz
+        speeds = np.sort([0.0, min(f / max(order, 1), end), end])
+        lines = np.column_stack([f + order * speeds, np.abs(f - order * speeds)])
+        axes.plot(speeds, lines, ":", color=style.GREEN, label=[label, None])
+        label = None
 
 
 def _crossings(

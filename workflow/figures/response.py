@@ -161,13 +161,14 @@ def _symbol(name: str) -> str:
 def liner_and_tip(scene: Scene) -> str:
     """The liner's law with its parameters, moduli in Pa, and the tip, for labels."""
     law, contact = scene.liner.law, scene.contact
+    moves = ",\ncasing moves" if scene.casing.moves else ""
     unit = getattr(law, "unit_Pa", None)
     listed = [
         f"{_symbol(name)} = {EngFormatter('Pa')(rounded(unit * x, 3)) if unit else f'{x:g}'}"
         for name, x in law.model_dump(exclude={"kind", "unit_MPa", "unit_Pa"}).items()
         if isinstance(x, int | float)  # no curve, nor what a law of one's own may have
     ]
-    label = ", ".join([law.called, *listed]) if listed else f"liner: {law.called}"
+    label = (", ".join([law.called, *listed]) if listed else f"liner: {law.called}") + moves
     if contact.profile is None:
         return label
     force = "with" if contact.tangential else "without"

@@ -116,7 +116,9 @@ class Project:
         settings = self.blades.settings[blade]
         sought, lines = settings.margins.model_dump(), settings.operating_rpm
         orders = sorted({*sought["orders"], *excited})
-        return sought | {"lines": lines, "orders": orders, "excited": excited}
+        moves = {(of.order, of.frequency_Hz) for scene in scenes for of in scene.casing.moves}
+        of_scenes = {"excited": excited, "casing": sorted(moves)}
+        return sought | {"lines": lines, "orders": orders} | of_scenes
 
     def of_sweeps(self, pattern: str) -> list[str]:
         """``pattern`` for every sweep to deliver, with its blade and its model's directions."""
