@@ -59,6 +59,7 @@ def rows(
         {
             "line": name,  # of the operating speed; None without
             "line_rpm": rpm,
+            "rpm_to": None,  # end of a range
             **row,
             # by what its engine order is: a harmonic of the casing, a side band, or ``SEEN``
             "excited": excited.get(row["k"], "" if row["quadratic_rpm"] else SEEN),
@@ -113,7 +114,7 @@ def table(margins: Iterable[Margin]) -> list[list[str]]:
 def speed(row: Critical) -> str:
     """A critical speed, rpm, with its uncertainty; one at an end of a sweep has none."""
     error = row["rpm_error"]
-    if "rpm_to" in row:
+    if row["rpm_to"]:
         return range_of(row)
     if row["bound"] or not error:
         return f"{row['rpm']:.0f}{' (end: rises further)' * row['bound']}"
@@ -123,7 +124,7 @@ def speed(row: Critical) -> str:
 
 def range_of(met: Mapping[str, Any]) -> str:
     """Speeds, rpm, at which a casing meets the blade: from the free one to one in contact."""
-    return f"{met['rpm']:.0f} to " + (f"{met['rpm_to']:.0f}" if met["rpm_to"] else "above")
+    return f"{met['rpm']:.0f} to {met['rpm_to']:.0f}{' and above' * met['bound']}"
 
 
 def of_casing(whirls: Iterable[Mapping[str, Any]], relative: float) -> list[Critical]:
@@ -133,11 +134,12 @@ def of_casing(whirls: Iterable[Mapping[str, Any]], relative: float) -> list[Crit
             "what": f"fed by rotation, with order {mode['order']} of the casing",
             "modes": [met["mode"]],
             "k": met["f_over_Omega"],
+            "rpm": met["rpm"],
+            "rpm_to": met["rpm_to"],
             "quadratic_rpm": None,
-            "bound": False,
+            "bound": met["bound"],
             "rpm_error": relative * met["rpm"],
             "least": True,
-            **{name: met[name] for name in ("rpm", "rpm_to")},
         }
         for mode in whirls
         for met in mode["met"]
@@ -172,7 +174,7 @@ def nearest(campbell: Mapping[str, Any], margins: Iterable[Margin], name: str) -
         texts = [_text(row) for row in crossings if sign * (row["speed_margin"] or 0.0) > 0]
         found = [*texts, none_of(campbell, *sorted((line_rpm, end)))][0]
         yield f"{name.capitalize()} speed {line_rpm:.0f} rpm, next crossing {side}: {found}."
-    for row in [row for row in of_line if not row["quadratic_rpm"] and "rpm_to" not in row][:1]:
+    for row in [row for row in of_line if not (row["quadratic_rpm"] or row["rpm_to"])][:1]:
         yield f"{name.capitalize()} speed {line_rpm:.0f} rpm, nearest rub peak: {_text(row)}."
 
 

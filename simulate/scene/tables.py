@@ -91,7 +91,7 @@ def _row(model: type[Settings], header: Sequence[str], line: int, cells: Sequenc
     try:
         return check_settings(model, values, "")
     except ValueError as error:
-        raise ValueError(f"line {line}: {error}") from None
+        raise ValueError(f"{error} (line {line})") from None
 
 
 def _columns(lines: Lines, x: Columns, y: Columns) -> dict[str, list[float]]:

@@ -26,10 +26,11 @@ def whirls(rom: Rom, liner: Liner, casing: Casing, modes: int) -> list[dict[str,
 
     Of each its ``order`` and frequency ``Hz``, the number of ``modes``, the highest speed ``up_to``
     of the model, rpm, and those ``met``: the blade's ``mode``, the speeds ``rpm`` with the free
-    blade and ``rpm_to`` with one in contact, None above that speed, and ``f_over_Omega`` of the
-    free blade.
+    blade and ``rpm_to`` with one in contact, at most that speed (``bound``), and ``f_over_Omega``
+    of the free blade.
     """
-    unit, free = RPM * rom.omega1, partial(first_frequencies, rom, modes, 0)
+    unit, up_to = RPM * rom.omega1, RPM * rom.Omega_m
+    free = partial(first_frequencies, rom, modes, 0)
     engaged, found = partial(_engaged, rom, liner, casing, modes), []
     for mode in casing.moves:
         ends = _met(rom, engaged, mode)
@@ -37,13 +38,14 @@ def whirls(rom: Rom, liner: Liner, casing: Casing, modes: int) -> list[dict[str,
             {
                 "mode": number,
                 "rpm": unit * speed,
-                "rpm_to": unit * ends[number] if number in ends else None,
+                "rpm_to": unit * ends[number] if number in ends else up_to,
+                "bound": number not in ends,
                 "f_over_Omega": float(free(speed)[number - 1] / speed),
             }
             for number, speed in _met(rom, free, mode).items()
         ]
         of_casing = {"order": mode.order, "Hz": mode.frequency_Hz, "met": met}
-        found.append(of_casing | {"modes": modes, "up_to": RPM * rom.Omega_m})
+        found.append(of_casing | {"modes": modes, "up_to": up_to})
     return found
 
 

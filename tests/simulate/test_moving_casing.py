@@ -6,108 +6,45 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from runs import marched
-from scenes import EXACT, blade_balance, scene
-from scipy.optimize import brentq, minimize_scalar
-from systems import Hooke, in_the_middle, strips
+from pairs import (
+    M_R,
+    PRELOAD,
+    W_R,
+    N,
+    band,
+    growth,
+    mode,
+    of_equations,
+    of_kernel,
+    places,
+    pressed,
+    step_map,
+)
+from refused import refused
+from runs import marched, rad_s, set_up
+from scenes import EXACT, SCHEMES, blade_balance, scene
+from scipy.linalg import eigh
+from scipy.optimize import minimize_scalar
 
-from simulate.contact.ramp import smooth
-from simulate.marching import FinalState, piecewise_exact
-from simulate.marching.friction import sliding
-from simulate.marching.kernel import Recorded, at_start, march_round
-from simulate.marching.modal import padded_rows, rows_of
-from simulate.marching.moving_casing import moving_casing
-from simulate.scene.casing_modes import CasingMode
+from geometry.base import RPM, SettingsError
+from rom.polynomial import evaluate
+from simulate.contact.places import mean_footprint
+from simulate.errors.accuracy import choose, march_to_accuracy
+from simulate.errors.model_errors import ModelError
+from simulate.marching import (
+    WITH_RESULT,
+    FinalState,
+    SceneError,
+    check_scene,
+    strip_stiffness,
+)
+from simulate.marching.moving_casing import CasingMotion, moving_casing
+from simulate.scene.casing_modes import Ring
+from simulate.sweeps.peak import reported
 from simulate.sweeps.sweep import sweep
+from simulate.sweeps.whirls import whirls
 
-PRELOAD = 8.0  # order-0 distortion that keeps the contact closed
-W_B, M_R, W_R, N = 1.0, 10.0, 2.0, 2  # blade of mass 1, on a pair of the casing
-
-
-def mode(zeta=0.0, **more):
-    """The pair of the closed forms."""
-    values = {"order": N, "frequency_Hz": W_R / (2 * np.pi), "modal_mass_kg": M_R}
-    return CasingMode(**values | {"damping_ratio": zeta} | more)
-
-
-def places(*theta, slope=0.0, footprint=0.0):
-    """Strips at angles, rad, at the radius of 1 m."""
-    theta = np.array(theta)
-    one = np.ones(len(theta))
-    return SimpleNamespace(
-        xi=theta, theta=theta, radius=one, slope=slope * one, footprint=footprint * one
-    )
-
-
-def pressed(k_c, Omega, h, modes, theta=(0.0,), zeta=0.0, mu=None):
-    """Scheme of a blade on elastic strips of a casing that moves, and the strips."""
-    m = len(theta)
-    moving = moving_casing(modes, places(*theta), mu is not None, False)
-    blade = np.ones((m, 1)), np.zeros((m if mu is not None else 0, 1)), np.zeros((0, 1))
-    (closing, along, _), omega, zetas = moving.beside(blade, np.array([W_B]), zeta)
-    system = strips(Hooke(k_c), np.zeros(m), np.full(4, PRELOAD))
-    system = in_the_middle(system, omega, closing, zetas, h)
-    rows = rows_of(closing, along) if mu is not None else closing
-    scheme = piecewise_exact.coefficients(omega, rows, zetas, h)
-    if mu is not None:
-        scheme = sliding(scheme, system.first_t, np.full(m, mu), np.full(m, k_c))
-        # without arc, as the tip does not pass along the rods, nor is it shifted to others
-        system = system._replace(tangential=True, pitch=np.full(m, 1e30))
-    return moving.turned(scheme, 1, Omega * h), system
-
-
-def step_map(scheme, system, n=3):
-    """Matrix (2n, 2n) of a step of the kernel on x, y of the modes, contact closed."""
-
-    def after(start):
-        state = at_start(scheme, system)
-        state.motion.x[0, :n], state.motion.y[0, :n] = start[:n], start[n:]
-        state.motion.u[:] = state.motion.x @ scheme.Phi.T
-        empty = padded_rows(np.zeros((1, n))), np.zeros((2, 0, 1))
-        recorded = Recorded(np.zeros((1, 1)), np.zeros((3, 0)), np.zeros((0, 0)), *empty)
-        contacts, *_ = march_round(scheme, system, state, recorded, smooth(0.0), np.inf, 0, 1)
-        assert contacts == 1
-        return np.concatenate([state.motion.x[1, :n], state.motion.y[1, :n]])
-
-    rest = after(np.zeros(2 * n))
-    return np.array([after(unit) - rest for unit in np.eye(2 * n)]).T, rest
-
-
-def of_kernel(Omega, k_c=0.2, h=0.01, zeta=0.0, mu=None):
-    """Eigenvalues s (1/s) of the motion, from those of a step, exp(s h)."""
-    step, _ = step_map(*pressed(k_c, Omega, h, [mode(zeta)], zeta=zeta, mu=mu))
-    values = np.linalg.eigvals(step)
-    return np.log(values.astype(complex)) / h
-
-
-def of_equations(Omega, k_c=0.2, zeta=0.0, mu=0.0):
-    """The same in the blade's frame, exact: u of the blade, p and q of the casing."""
-    k_r, c = M_R * W_R**2, 2 * zeta * W_R * M_R
-    turns, mass = N * Omega, np.diag([1.0, M_R, M_R])
-    K = np.array([
-        [W_B**2 + k_c, -k_c, 0],
-        [-k_c, k_r - turns**2 * M_R + k_c, -c * turns],
-        [-mu * k_c / N, mu * k_c / N + c * turns, k_r - turns**2 * M_R],
-    ])  # fmt: skip
-    D = np.array([[2 * zeta * W_B, 0, 0], [0, c, -2 * turns * M_R], [0, 2 * turns * M_R, c]])
-    inverse = np.linalg.inv(mass)
-    return np.linalg.eigvals(
-        np.block([[np.zeros((3, 3)), np.eye(3)], [-inverse @ K, -inverse @ D]])
-    )
-
-
-def growth(of, Omega):
-    """Largest rate, 1/s."""
-    return of(Omega).real.max()
-
-
-def band(of, inside, outside, least=1e-7):
-    """Speeds at which a band around ``inside`` begins and ends, within those ``outside``."""
-    return [
-        brentq(lambda Omega: growth(of, Omega) - least, inside, end, xtol=1e-10) for end in outside
-    ]
-
-
+FIRST = SimpleNamespace(f1=260.0)  # for scenes that are not marched
 BANDS = [
     # k_c, zeta, mu, divergence, flutter, largest growth and where
     (0.2, 0.0, None, (1.0, 1.0020812), (1.5338174, 1.5640335), (0.015107722, 1.5489255)),
@@ -263,3 +200,249 @@ def test_runs_in_turn_keep_the_motion_of_the_casing(coarse_rom):
     before = runs.sel(energy="casing_before").values
     end = runs.sel(energy=["casing_kinetic", "casing_elastic"]).sum("energy").values
     assert before[0] == 0 < end[0] and before[1] == pytest.approx(end[0], rel=1e-12)
+
+
+def lasting(rom, mass, unit_MPa=200, **changes):
+    """A rub all around, kept closed by order 0, on a casing of five diameters."""
+    values = {
+        "rounds": 60,
+        "damping_ratio": 0.001,
+        "casing__harmonics": [{"order": 0, "amplitude_gaps": 1.5}],
+        "casing__modes": [given(5, 0.45, rom, mass, 0.002)],
+        "record": {"samples_per_round": 64, "spectrum_rounds": 20},
+        "liner__law": {"kind": "elastic", "E": 1.0, "unit_MPa": unit_MPa},
+    }
+    return rubbing(**values | changes)
+
+
+def test_rotation_feeds_blade_and_casing_on_no_engine_order(coarse_rom):
+    """From n Omega = w_b + w_n of the free blade to that in contact: a row, f / Omega."""
+    case = lasting(coarse_rom, 10.0)
+    (of_casing,) = whirls(coarse_rom, case.liner, case.casing, 1)
+    (met,) = of_casing["met"]
+    first, last = (met[end] / (60 * coarse_rom.f1) for end in ("rpm", "rpm_to"))
+    speeds = [
+        0.95 * first,
+        0.98 * first,
+        *np.linspace(first, last, 4)[1:],
+        1.04 * last,
+        1.07 * last,
+    ]
+    runs = sweep(case.but(speeds={"over_f1": [float(speed) for speed in speeds]}), coarse_rom)
+    amplitude = spectra(runs)[:, 1:].max(axis=1)
+    assert amplitude[:2].max() < 0.1 * amplitude[2:5].min()
+    (peak,) = reported(runs, coarse_rom)
+    assert first < peak.Omega_c <= 1.04 * last and tuple(peak.modes) == (1,)
+    assert abs(peak.k - round(peak.k)) > 0.1
+    f_b = coarse_rom.modes(peak.Omega_c * coarse_rom.omega1)[0][0] / coarse_rom.omega1
+    assert f_b < peak.k * peak.Omega_c < 1.1 * f_b
+    backward = abs(5 - peak.k)  # the casing's wave, in its own frame
+    of_mode = runs["casing_spectrum"].isel(casing_mode=0).sel(speed_over_f1=peak.Omega_c)
+    assert of_mode.engine_order.values[of_mode.values[1:].argmax() + 1] == pytest.approx(
+        backward, abs=0.1
+    )
+
+
+def spectra(runs):
+    """Spectra (speeds, bins) of u_r, m."""
+    return runs["spectrum"].transpose("speed_over_f1", ...).values
+
+
+def test_ranges_fed_by_rotation_are_those_of_the_whole_model(coarse_rom):
+    """n f = f_b + f_n, with frequencies of M, K and the strips, at both ends."""
+    case = lasting(coarse_rom, 10.0)
+    (of_casing,) = whirls(coarse_rom, case.liner, case.casing, 4)
+    met = of_casing["met"][0]
+    setup = set_up(case, coarse_rom, 0.3)
+    k, P = strip_stiffness(case.liner, setup.places), coarse_rom.rows(setup.places.xi, "r")
+    for rpm, stiffer in ((met["rpm"], 0.0), (met["rpm_to"], P.T @ (k[:, None] * P))):
+        K = evaluate(coarse_rom.K, rpm / RPM) + stiffer
+        f = np.sqrt(eigh(K, coarse_rom.M, eigvals_only=True)[0]) / (2 * np.pi)
+        assert 5 * rpm / 60 == pytest.approx(f + 0.45 * coarse_rom.f1, rel=1e-6)
+    assert whirls(coarse_rom, case.liner, case.but(casing__modes=None).casing, 4) == []
+    slow = case.but(casing__modes=[given(2, 1.0, coarse_rom)])
+    assert whirls(coarse_rom, slow.liner, slow.casing, 4)[0]["met"] == []
+
+
+@pytest.mark.parametrize(
+    ("modes", "mass", "speed"), [("light", 0.05, 0.33), ("undamped", 2.0, 0.3)]
+)
+def test_what_rotation_feeds_diverges(modes, mass, speed, coarse_rom):
+    """Physics, and no fault of the steps: they create nothing beside the casing's work."""
+    damping = 0.0 if modes == "undamped" else 0.002
+    zeta = {"casing__modes": [given(5, 0.45, coarse_rom, mass, damping)]}
+    thick = {"liner__thickness_mm": 100, "rounds": 1000, "record__spectrum_rounds": 1}
+    case = lasting(coarse_rom, mass, 40000, **thick, **zeta)
+    outcome = marched(case, coarse_rom, speed)
+    assert outcome.status == "diverged", outcome.rounds
+    assert abs(outcome.ledger.numerical) < 1e-3 * outcome.ledger.casing
+
+
+@pytest.mark.parametrize("forward", [True, False])
+def test_the_spectrum_of_the_casing_is_of_its_own_frame(forward):
+    """A wave of two diameters that turns at 0.7 Omega; its largest motion is everywhere the same."""
+    moving = moving_casing([mode(), mode(order=0)], places(0.0), False, False)
+    motion = CasingMotion.room(moving, 640, 10)
+    for done in range(12):
+        time = 2 * np.pi * (done + (np.arange(1, 65) / 64 - 0.5 / 640))  # of the step's middle
+        turn = 2 * time * (0.7 if forward else -0.7) - 2 * time  # in the blade's frame
+        x = np.stack([3e-6 * np.cos(turn), 3e-6 * np.sin(turn), 0 * time + 1e-6], axis=1)
+        motion.add(x * np.sqrt(M_R))
+    found = motion.spectrum()
+    assert found.shape == (2, 321) and found[0].argmax() == 14  # 1.4 of ten revolutions
+    assert found[0, 14] == pytest.approx(3e-6, rel=1e-9) and found[1, 0] == pytest.approx(1e-6)
+    assert np.delete(found[0], 14).max() < 1e-12
+    assert motion.largest == pytest.approx(4e-6, rel=2e-3)
+
+
+def test_the_largest_motion_of_several_modes_is_that_around_the_casing():
+    modes = [mode(order=n, modal_mass_kg=m) for n, m in ((0, 2.0), (1, 3.0), (4, 5.0))]
+    motion = CasingMotion.room(moving_casing(modes, places(0.0), False, False), 64, 1)
+    x, phi = np.random.default_rng(4).normal(size=(64, 5)), np.linspace(0, 2 * np.pi, 20000)
+    motion.add(x)
+    shapes = [np.cos(0 * phi), np.cos(phi), np.sin(phi), np.cos(4 * phi), np.sin(4 * phi)]
+    whole = x / np.sqrt([2, 3, 3, 5, 5]) @ shapes
+    assert motion.largest == pytest.approx(abs(whole).max(), rel=2e-3)
+    motion.add(x / 2)
+    assert motion.largest == pytest.approx(abs(whole).max(), rel=2e-3)
+
+
+def test_rows_are_those_of_the_mode_at_the_edges_of_the_tip_on_a_cone():
+    theta, slope, n = np.array([0.1, 0.7]), -0.3, 3
+    of = mode(order=n, modal_mass_kg=None, radial=0.4, tangential=-0.1, axial=0.05)
+    moving = moving_casing([of], places(*theta, slope=slope, footprint=0.02), True, True)
+    closing, along, lean = moving.rows
+    ahead, behind = (
+        -(0.4 - slope * 0.05) * np.stack([np.cos(n * at), np.sin(n * at)], axis=1)
+        for at in (theta + 0.01, theta - 0.01)
+    )
+    np.testing.assert_allclose(closing, (ahead + behind) / 2, rtol=1e-14)
+    np.testing.assert_allclose(lean, ahead - behind, rtol=1e-12)
+    sides = 0.1 * np.stack([np.sin(n * theta), -np.cos(n * theta)], axis=1)
+    np.testing.assert_allclose(along, sides, rtol=1e-14)
+    by_mass = mode(order=n, modal_mass_kg=1 / 0.4**2)
+    assert by_mass.phi == pytest.approx((0.4, -0.4 / n, 0.0))
+
+
+def test_a_ring_is_that_of_the_table():
+    ring = Ring(
+        young_modulus_GPa=70, density_kg_m3=2700, radius_mm=250, thickness_mm=4, width_mm=50,
+        orders=[0, 2, 3, 4, 5, 6], damping_ratio=0.001,
+    )  # fmt: skip
+    Hz = [3241.509, 40.1738, 113.6287, 217.8730, 352.3475, 516.8863]
+    kg = [0.8482300, 0.5301438, 0.4712389, 0.4506222, 0.4410796, 0.4358960]
+    assert [mode.frequency_Hz for mode in ring.modes] == pytest.approx(Hz, rel=2e-6)
+    assert [mode.modal_mass_kg for mode in ring.modes] == pytest.approx(kg, rel=2e-7)
+    wide = ring.but(poisson_ratio=0.3).modes
+    assert wide[1].frequency_Hz == pytest.approx(40.1738 / np.sqrt(0.91), rel=2e-6)
+    assert wide[0].frequency_Hz == ring.modes[0].frequency_Hz
+
+
+REFUSED = {
+    "central": ({"integrator": SCHEMES["central-difference"]}, "casing.modes: .*central diff"),
+    "rigid law": ({"liner__law": {"kind": "rigid"}}, "casing.modes: .*law.kind: rigid"),
+    "backing": ({"liner__worn_through": "casing"}, "casing.modes: .*worn_through"),
+    "both": (
+        {"casing__ring": {
+            "young_modulus_GPa": 70, "density_kg_m3": 2700, "radius_mm": 700, "thickness_mm": 20,
+            "width_mm": 100, "orders": [2], "damping_ratio": 0.01,
+        }}, "casing.ring: .*take one of them out",
+    ),
+    "one of": ({"casing__modes": [given(rom=FIRST, radial=1.0, modal_mass_kg=1.0)]}, "exactly one"),
+    "tangential": ({"casing__modes": [given(rom=FIRST, tangential=1.0)]}, "tangential: goes with"),
+    "order 0": (
+        {"casing__modes": [given(0, rom=FIRST, radial=1.0, tangential=0.1)]}, "tangential: 0.1: order",
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_a_casing_is_refused_in_a_line(name):
+    changes, match = REFUSED[name]
+    refused(SettingsError, rubbing, **{"casing__modes": [given(rom=FIRST)]} | changes, match=match)
+
+
+def test_a_free_ring_has_no_order_one():
+    of = {
+        "young_modulus_GPa": 70, "density_kg_m3": 2700, "radius_mm": 700, "thickness_mm": 20,
+        "width_mm": 100, "damping_ratio": 0.01,
+    }  # fmt: skip
+    for orders, match in (([0, 1], "orders: 1: allowed 0 and 2"), ([2, 2], "names an order twice")):
+        refused(SettingsError, rubbing, casing__ring=of | {"orders": orders}, match=match)
+
+
+def test_modes_that_do_not_fit_the_model_are_refused(coarse_rom):
+    def check(**mode):
+        check_scene(rubbing(casing__modes=[given(rom=coarse_rom, **mode)]), coarse_rom)
+
+    check(order=2, over_f1=0.2)
+    half = mean_footprint(rubbing().liner, coarse_rom) / coarse_rom.camber[:, 0].mean() / 2
+    check(order=int(0.1 / half))
+    many = f"modes.0.order: {int(0.1 / half) + 1}: .*up to {int(0.1 / half)}"
+    refused(SceneError, check, order=int(0.1 / half) + 1, match=many)
+    refused(SceneError, check, over_f1=0.59, zeta=0.0, match="modes.0.damping_ratio: 0: without")
+    check(over_f1=0.61, zeta=0.0)  # the fastest run is at 0.3
+
+
+def test_modes_come_from_a_csv_file(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    table = tmp_path / "modes.csv"
+    table.write_text(
+        "order,frequency_Hz,radial,axial,damping_ratio\n0,900,0.3,0,0.01\n2,400,.2,.1,0\n"
+    )
+    first, second = rubbing(casing__modes="modes.csv").casing.modes
+    assert (first.order, second.frequency_Hz, second.phi) == (0, 400.0, (0.2, -0.1, 0.1))
+    for text, match in (
+        (
+            "order,frequency_Hz,modal_mass_kg,damping_ratio\n2.5,400,9,0",
+            "modes.csv: .*order.*line 2",
+        ),
+        (
+            "order,frequency,modal_mass_kg,damping_ratio\n2,400,9,0",
+            "modes.csv: .*frequency.*line 2",
+        ),
+        (
+            "order,frequency_Hz,modal_mass_kg,damping_ratio\n2,400,9",
+            "modes.csv: .*found 3 cells .line 2",
+        ),
+        ("order,frequency_Hz", "casing.modes"),
+        ("", "casing.modes"),
+    ):
+        table.write_text(text)
+        refused(SettingsError, rubbing, casing__modes="modes.csv", match=match)
+
+
+def test_a_sweep_tells_the_motion_of_the_casing_and_leaves_it_out_of_a_rigid_one(coarse_rom):
+    case = rubbing(casing__modes=[given(rom=coarse_rom), given(0, 3.0, coarse_rom)], **SLIDES)
+    moves, rigid = (sweep(of, coarse_rom) for of in (case, rubbing(**SLIDES)))
+    told = {"casing_motion", "casing_spectrum", "casing_order", "casing_frequency"}
+    assert told <= {*moves.variables} and not told & {*rigid.variables}
+    assert moves["casing_spectrum"].dims == ("speed_over_f1", "casing_mode", "engine_order")
+    assert moves["casing_order"].values.tolist() == [2, 0]
+    assert moves["casing_motion"].item() >= moves["casing_spectrum"].max().item() > 1e-7
+    assert not {"casing_work", "casing_damping"} & {*rigid["energy"].values}
+    assert "mu_crit" in rigid and "mu_crit" not in moves  # that of a blade on a rigid casing
+    energies = moves["ledger"].isel(speed_over_f1=0)
+    formula = moves["energy"].attrs["long_name"].partition("numerical: ")[2].partition(" = ")[2]
+    terms = {str(name): energies.sel(energy=name).item() for name in energies["energy"].values}
+    said = eval(formula.partition(";")[0], {}, terms)
+    assert terms["numerical"] == pytest.approx(said, rel=1e-9)
+
+
+def test_second_runs_have_the_casing_too(coarse_rom):
+    runs = sweep(
+        rubbing(casing__modes=[given(rom=coarse_rom)], rounds=4, verify="every"), coarse_rom
+    )
+    assert runs["status"].item() in WITH_RESULT and runs["casing_motion"].item() > 1e-7
+    assert 0 < runs["error"].max().item() < 0.1
+
+
+def test_an_accuracy_is_met_over_a_moving_casing(coarse_rom):
+    case = rubbing(
+        casing__modes=[given(rom=coarse_rom)], accuracy=0.1, rounds=4, integrator=None,
+        liner__rods_per_round=None, liner__strips=None,
+    )  # fmt: skip
+    choice = choose(case, coarse_rom, ModelError(0.0, None))
+    run = march_to_accuracy(case, coarse_rom, rad_s(coarse_rom, 0.3), choice)
+    assert run.outcome.status == "ok" and run.outcome.casing.largest > 1e-7
+    assert 0 < max(run.errors.values()) < 0.1

@@ -21,6 +21,7 @@ import rotor37_surfaces  # noqa: E402
 import rotor67  # noqa: E402
 import rotor67_rub  # noqa: E402
 import shocks  # noqa: E402
+import standing_casing  # noqa: E402
 import two_masses  # noqa: E402
 import wright  # noqa: E402
 from cases import Case, Row  # noqa: E402
@@ -40,6 +41,8 @@ CASES: Mapping[str, Case] = {
     "rotor67": rotor67.CASE,
     "rotor67-rub": rotor67_rub.CASE,
     "rotor37-surfaces": rotor37_surfaces.CASE,
+    "pair": standing_casing.CASE,
+    "moving-casing": standing_casing.BESIDE,
     "energies": energies.CASE,
     "massless-boundary": massless_boundary.CASE,
     "rotor37-rub": massless_boundary.ROTOR_37,
