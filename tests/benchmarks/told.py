@@ -55,6 +55,12 @@ class Draw(Random):
         return values if self.random() < share else {}
 
 
+def moving(draw: Draw) -> dict[str, Any]:
+    """A mode of a casing, stiff or soft."""
+    values = {"frequency_Hz": draw.over(200, 5000), "modal_mass_kg": draw.over(3, 100)}
+    return values | {"order": draw.randint(0, 5), "damping_ratio": draw.over(2e-3, 2e-2)}
+
+
 def drawn(draw: Draw) -> tuple[str, dict[str, Any]]:
     """Directions of the model, and a scene as a user writes it."""
     blade, directions = draw.choice(MODELS)
@@ -81,6 +87,7 @@ def drawn(draw: Draw) -> tuple[str, dict[str, Any]]:
         "casing": {
             "harmonics": [harmonic | draw.maybe(0.2, speed_rpm=draw.over(10, 1e4))],
             "ramp_rounds": draw.choice([0.5, 1, 2, 5]),
+            **draw.maybe(0.2, modes=[moving(draw) for _ in range(draw.choice([1, 2, 5]))]),
         },
         "liner": {
             "law": law | {"E": draw.over(0.1, 100)},

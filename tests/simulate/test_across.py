@@ -185,6 +185,11 @@ SETS = {
         "contact__tangential": True,
     },
     "friction": {"contact__friction": 0.15},
+    "moving casing": {
+        "casing__modes": [
+            {"order": 2, "frequency_Hz": 300, "modal_mass_kg": 1, "damping_ratio": 0.01}
+        ]
+    },
 }
 
 
@@ -200,6 +205,7 @@ def test_no_energy_is_created_and_its_error_falls_with_the_step(edges_rom, of):
         run = march(case, prepare(case, edges_rom, edges_rom.omega1 * 0.34))
         ledger = run.ledger
         assert run.status == "ok" and run.facts.unsolved == 0 and run.contact_share > 0.05
+        assert (ledger.casing_work != 0) == (of == "moving casing")
         blade = ledger.blade - ledger.blade_before + ledger.damping
         assert blade == pytest.approx(ledger.work, rel=1e-9)
         errors.append(ledger.numerical / ledger.casing)

@@ -137,10 +137,11 @@ def given(order=2, over_f1=0.9, rom=None, mass=0.5, zeta=0.01, **more):
 
 SLIDES = {"contact__friction": 0.15}
 ROUNDED = {"contact": {"profile": {"edge_drop_um": 20.0, "tilt": 0.004}, "tangential": True}}
+CONE = {"casing__slope": -0.2}
 TRAVELS = {"casing__harmonics": [
     {"order": 2, "amplitude_gaps": 1.6}, {"order": 3, "amplitude_gaps": 0.5, "speed_rpm": 300},
 ]}  # fmt: skip
-WITH = {"flat": {}, "friction": SLIDES, "rounded": ROUNDED, "travelling": TRAVELS}
+WITH = {"flat": {}, "friction": SLIDES, "rounded": ROUNDED, "travelling": TRAVELS, "cone": CONE}
 
 
 def rubbing(**changes):
@@ -173,7 +174,7 @@ def test_energies_of_blade_and_casing_are_balanced(name, coarse_rom):
     assert abs(blade_balance(ledger)) < 1e-12 * whole
     assert ledger.casing_kinetic + ledger.casing_elastic > 0
     if name != "rounded":  # there the ledger's error goes with the step
-        assert abs(ledger.numerical) < 2e-3 * whole
+        assert -2e-3 * whole < ledger.numerical <= 1e-12 * whole  # none is created
 
 
 def test_a_run_over_a_moving_casing_goes_on_to_the_last_bit(coarse_rom, tmp_path):
@@ -280,7 +281,7 @@ def test_what_rotation_feeds_diverges(modes, mass, speed, coarse_rom):
 
 @pytest.mark.parametrize("forward", [True, False])
 def test_the_spectrum_of_the_casing_is_of_its_own_frame(forward):
-    """A wave of two diameters that turns at 0.7 Omega; its largest motion is everywhere the same."""
+    """A wave of two diameters that turns at 0.7 Omega, and a shift; the same all around."""
     moving = moving_casing([mode(), mode(order=0)], places(0.0), False, False)
     motion = CasingMotion.room(moving, 640, 10)
     for done in range(12):
@@ -351,7 +352,8 @@ REFUSED = {
     "one of": ({"casing__modes": [given(rom=FIRST, radial=1.0, modal_mass_kg=1.0)]}, "exactly one"),
     "tangential": ({"casing__modes": [given(rom=FIRST, tangential=1.0)]}, "tangential: goes with"),
     "order 0": (
-        {"casing__modes": [given(0, rom=FIRST, radial=1.0, tangential=0.1)]}, "tangential: 0.1: order",
+        {"casing__modes": [given(0, rom=FIRST, radial=1.0, tangential=0.1)]},
+        "tangential: 0.1: order",
     ),
 }  # fmt: skip
 

@@ -123,6 +123,15 @@ FAULTS = {  # table, and what is refused of it before any row is marched: key, v
 }
 
 
+def test_rows_may_differ_in_the_casing_that_moves(tmp_path, coarse_rom):
+    table = "casing.modes[0].frequency_Hz,casing.modes[0].modal_mass_kg\n200,0.5\n200,1e12\n,\n"
+    modes = [{"order": 2, "frequency_Hz": 400, "modal_mass_kg": 1e12, "damping_ratio": 0.01}]
+    speeds = {"speeds": {"over_f1": [0.33]}}
+    _, rows = made(design(tmp_path, table, casing__modes=modes, **speeds), coarse_rom, tmp_path)
+    soft, heavy, stiff = rows["displacement"].values
+    assert heavy == pytest.approx(stiff, rel=1e-5) and abs(soft / stiff - 1) > 1e-3
+
+
 @pytest.mark.parametrize("table", FAULTS, ids=lambda table: table[:20])
 def test_a_wrong_column_is_refused_before_any_row(tmp_path, table, monkeypatch):
     monkeypatch.chdir(tmp_path)

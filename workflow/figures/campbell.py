@@ -53,11 +53,11 @@ def draw(
     margin = HEADROOM * f1.max()
     first.set_ylim(f1.min() - 2 * margin, f1.max() + margin)
     modes = _frequencies(every, rom, check, SHOWN, beyond=bool(lines))
-    for axes in (first, every):
-        _casing(axes, operating["casing"], rom.f1)
     for mode, last in enumerate(modes[-1], start=1):
         style.note(every, (every.get_xlim()[1], last), str(mode), (5, 0), va="center")
     every.set_ylim(0, 1.2 * modes.max())
+    for axes in (first, every):
+        _casing(axes, operating["casing"], rom.f1)
     # the error of the mesh is not known
     rows = [{**row, "rpm_error": None} for row in margins.rows(campbell)]
     shown = margins.near(rows) or [row for row in rows if row["modes"] == [1]][-FASTEST:]
@@ -132,6 +132,8 @@ def _casing(axes: Axes, casing: Sequence[tuple[int, float]], f1_Hz: float) -> No
         lines = np.column_stack([f + order * speeds, np.abs(f - order * speeds)])
         axes.plot(speeds, lines, ":", color=style.GREEN, label=[label, None])
         label = None
+        if axes.get_ylim()[0] < f < axes.get_ylim()[1]:
+            style.note(axes, (0.0, f), f"$n$ = {order}", (3, 3), color=style.GREEN)
 
 
 def _crossings(
