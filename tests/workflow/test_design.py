@@ -127,8 +127,8 @@ def test_rows_may_differ_in_the_casing_that_moves(tmp_path, coarse_rom):
     table = "casing.modes[0].frequency_Hz,casing.modes[0].modal_mass_kg\n200,0.5\n200,1e12\n,\n"
     modes = [{"order": 2, "frequency_Hz": 400, "modal_mass_kg": 1e12, "damping_ratio": 0.01}]
     speeds = {"speeds": {"over_f1": [0.33]}}
-    _, rows = made(design(tmp_path, table, casing__modes=modes, **speeds), coarse_rom, tmp_path)
-    soft, heavy, stiff = rows["displacement"].values
+    runs, _ = made(design(tmp_path, table, casing__modes=modes, **speeds), coarse_rom, tmp_path)
+    soft, heavy, stiff = runs["displacement"].values
     assert heavy == pytest.approx(stiff, rel=1e-5) and abs(soft / stiff - 1) > 1e-3
 
 
