@@ -62,7 +62,9 @@ def rows(
             "rpm_to": None,  # end of a range
             **row,
             # by what its engine order is: a harmonic of the casing, a side band, or ``SEEN``
-            "excited": excited.get(row["k"], "" if row["quadratic_rpm"] else SEEN),
+            "excited": excited.get(
+                row["k"], "" if row["quadratic_rpm"] or row.get("rpm_to") else SEEN
+            ),
             "speed_margin": rpm and row["rpm"] / rpm - 1,
             # (f - k Omega) / (k Omega) at the operating speed; None of a rub peak
             "frequency_margin": rpm
@@ -102,7 +104,7 @@ def table(margins: Iterable[Margin]) -> list[list[str]]:
             numbers_of(row["modes"]) or "-",
             f"{row['k']:g}",
             row["excited"] or "-",
-            speed(row),
+            range_of(row) if row["rpm_to"] else speed(row),
             share(row["speed_margin"]),
             share(row["frequency_margin"]),
         ]
@@ -114,8 +116,6 @@ def table(margins: Iterable[Margin]) -> list[list[str]]:
 def speed(row: Critical) -> str:
     """A critical speed, rpm, with its uncertainty; one at an end of a sweep has none."""
     error = row["rpm_error"]
-    if row["rpm_to"]:
-        return range_of(row)
     if row["bound"] or not error:
         return f"{row['rpm']:.0f}{' (end: rises further)' * row['bound']}"
     bound = ("≥" if row["least"] else "±") + markdown.two_digits(error)

@@ -158,6 +158,23 @@ def test_facts_are_those_of_the_sweep(response):
     scene = response.scene.but(casing__harmonics=travelling).model_dump_json()
     moving = Response(response.sweep.assign_attrs(scene=scene), response.rom)
     assert facts_of(moving)["travels"] is True
+    assert not any("casing" in table["says"] for table in told["tables"])
+
+
+def test_the_page_tells_the_motion_of_the_casing(response):
+    bins = response.sweep.sizes["engine_order"]
+    spectrum = np.zeros((len(SPEEDS), 2, bins))
+    spectrum[:, 0, 0], spectrum[:, 0, 16], spectrum[:, 1, 3] = 9e-6, 3e-6, 1e-6  # its mean is none
+    moves = response.sweep.assign(
+        casing_motion=("speed_over_f1", np.full(len(SPEEDS), 4e-6)),
+        casing_spectrum=(("speed_over_f1", "casing_mode", "engine_order"), spectrum),
+    ).assign_coords(
+        casing_order=("casing_mode", [2, 0]), casing_frequency=("casing_mode", [400.0, 1200.5])
+    )
+    told = facts_of(Response(moves, response.rom))["tables"][1]
+    assert told["says"] == "radial motion of the casing, µm"
+    assert [*told["of"]] == ["largest", "order 2, 400 Hz", "order 0, 1200.5 Hz"]
+    assert [values[0] for values in told["of"].values()] == pytest.approx([4, 3, 1])
 
 
 def test_numbers_that_are_not_known_are_told_as_such():

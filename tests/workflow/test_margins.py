@@ -98,6 +98,32 @@ def test_nearest_first_and_what_is_far_is_in_the_csv_file_alone(told):
     assert len(near) < len(found["scenes"][0]["margins"]) == len(of_csv(found))
 
 
+MET = {"mode": 1, "rpm": 1000.0, "rpm_to": 1200.0, "bound": False, "f_over_Omega": 3.4}
+WHIRLS = [
+    {"order": 2, "Hz": 40.0, "modes": 4, "up_to": 1800.0, "met": [MET]},
+    {"order": 0, "Hz": 90.5, "modes": 4, "up_to": 1800.0, "met": []},
+]
+
+
+def test_a_range_in_which_rotation_feeds_the_casing_is_a_critical_speed_everywhere(told, rom):
+    found = told(whirls=WHIRLS)
+    scene = found["scenes"][0]
+    (row,) = (row for row in scene["margins"] if row["rpm_to"] and row["line"] == "idle")
+    assert row["speed_margin"] == pytest.approx(1000 / (LINES["idle"]) - 1)
+    cells = ["fed by rotation, with order 2 of the casing", "1", "3.4", "-", "1000 to 1200"]
+    near = margins.table(scene["margins"])
+    assert any(of[1:6] == cells for of in near)
+    page = summary.panel(MINE | {"whirls": WHIRLS}, critical(rom, OPERATING), {})
+    for text in (summary.table(found), summary.terminal(found), "\n".join(page["notes"])):
+        assert "order 2, 40 Hz: " in text and "rpm: mode 1 at 1000 to 1200." in text
+        assert "order 0, 90.5 Hz: " in text and "none of modes 1 to 4 up to 1800." in text
+        assert "nearest rub peak" in text  # a range is none
+    (of,) = (row for row in of_csv(found) if row["rpm_to"] and row["line"] == "idle")
+    assert (float(of["rpm"]), float(of["rpm_to"]), of["quadratic_rpm"]) == (1000, 1200, "")
+    beyond = MET | {"bound": True}
+    assert margins.range_of(beyond) == "1000 to 1200 and above"
+
+
 def of_csv(found):
     return list(csv.DictReader(StringIO(summary.margins_csv(found))))
 
@@ -141,14 +167,30 @@ def test_tables_of_summary_page_and_file_and_marks_of_the_campbell_diagram_are_t
     assert {f"{rpm:.0f}" for rpm in near} <= texts
 
 
-def diagram(rom):
+def diagram(rom, operating=OPERATING):
     speeds = np.linspace(0, rom.Omega_m, 3)
     full = np.array([rom.modes(speed)[0] for speed in speeds])
     known = {"xi": np.array([0.5]), "compliance_error": np.zeros((3, 1, 1)), "highest": 1.0}
     check = RomCheck(
         speeds=speeds, full=full, reduced=full, between=np.nan, provenance=PROVENANCE, **known
     )
-    return campbell.draw(rom, check, operating=OPERATING)
+    return campbell.draw(rom, check, operating=operating)
+
+
+def test_the_campbell_diagram_has_the_casing_as_the_blade_sees_it(rom):
+    """f_n + n Omega and |f_n - n Omega|, which turns back at f_n / n."""
+    f, end = 0.4, 1.25 * TOP
+    drawn = diagram(rom, OPERATING | {"casing": [(3, f * F1), (0, 2 * F1)]})
+    plain = [len(axes.lines) for axes in diagram(rom).axes[:2]]
+    for axes, before in zip(drawn.axes[:2], plain, strict=True):
+        assert len(axes.lines) == before + 4
+        of_casing = [line for line in axes.lines if line.get_linestyle() == ":"]
+        up, down, *constant = [line.get_xydata() for line in of_casing[-4:]]
+        np.testing.assert_allclose(up[:, 1], f + 3 * up[:, 0])
+        np.testing.assert_allclose(down[:, 1], abs(f - 3 * down[:, 0]))
+        assert down[:, 0] == pytest.approx([0, min(f / 3, end), end])
+        assert all((line[:, 1] == 2).all() for line in constant)
+    assert "casing" in " ".join(text.get_text() for text in drawn.axes[0].get_legend().texts)
 
 
 def test_frequencies_of_the_campbell_diagram_go_on_dashed_to_a_quarter_above_the_top(rom):

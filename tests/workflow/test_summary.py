@@ -71,6 +71,7 @@ OF = {
     "model_error": {"basis": 1e-4, "mesh": 9e-4},
     "no_torque": None,
     "mu_crit": None,
+    "whirls": [],
     "worst": [],
     "peaks": [ANSWER],
 }

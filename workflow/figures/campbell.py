@@ -24,9 +24,7 @@ from workflow.figures.annotations import (
 )
 
 SHOWN = 7  # modes, compared by the paper
-PLAIN: Mapping[str, Any] = {
-    "lines": {}, "modes": MODES, "orders": ORDERS, "excited": {}, "casing": []
-}  # fmt: skip
+PLAIN: Mapping[str, Any] = {"lines": {}, "modes": MODES, "orders": ORDERS, "excited": {}}
 FASTEST = 4  # crossings marked where no casing and no operating speed is known
 HEADROOM = 0.06  # above f1, for the labels of the engine orders
 BEHIND = {"facecolor": "white", "edgecolor": "none", "pad": 0.6}
@@ -57,7 +55,7 @@ def draw(
         style.note(every, (every.get_xlim()[1], last), str(mode), (5, 0), va="center")
     every.set_ylim(0, 1.2 * modes.max())
     for axes in (first, every):
-        _casing(axes, operating["casing"], rom.f1)
+        _casing(axes, operating.get("casing", ()), rom.f1)
     # the error of the mesh is not known
     rows = [{**row, "rpm_error": None} for row in margins.rows(campbell)]
     shown = margins.near(rows) or [row for row in rows if row["modes"] == [1]][-FASTEST:]
