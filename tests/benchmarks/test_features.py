@@ -20,6 +20,7 @@ TURNS = 12
 INTEGRATORS = SCHEMES | {"piecewise-exact": of_steps(8192)}
 BARE = {"samples_per_round": 64, "wear": False, "history": {"chord": [0.0625]}}
 ROUNDED = {"contact": {"profile": {"edge_drop_um": 2}}}
+HEAVY = {"frequency_Hz": 500.0, "modal_mass_kg": 1e9, "damping_ratio": 0.01}
 VARIANTS = {
     "spectrum only": {"record": {"samples_per_round": 64, "wear": False, "spectrum_rounds": 2}},
     "wear only": {"record": {"samples_per_round": 64, "wear": True}},
@@ -42,7 +43,11 @@ VARIANTS = {
         "casing__ramp": {"rounds": [0, 0.1], "factor": [0, 1]},
     },
     "twice the rods": {"liner__rods_per_round": 4096},
+    # too heavy to change the rub
+    "casing of one pair": {"casing__modes": [HEAVY | {"order": 2}]},
+    "casing of five pairs": {"casing__modes": [HEAVY | {"order": n} for n in (2, 3, 4, 5, 6)]},
 }
+EXACT_ALONE = "friction", "casing of one pair", "casing of five pairs"
 
 
 @pytest.fixture(scope="module")
@@ -77,7 +82,7 @@ def test_the_cost_of_each_feature(scheme, models, capsys):
     bare = case_of(scheme)
     setup = set_up(bare, models["r"], 0.33)
     runs = {"bare": run_of(bare)}
-    asked = [name for name in VARIANTS if name != "friction" or scheme == "piecewise-exact"]
+    asked = [name for name in VARIANTS if name not in EXACT_ALONE or scheme == "piecewise-exact"]
     runs |= {name: run_of(case_of(scheme, **VARIANTS[name])) for name in asked}
     twins = Case(bare.but(verify={"predictable": True}), models["r"], setup)
     runs["twin"] = lambda: judged(twins.march())
