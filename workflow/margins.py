@@ -5,7 +5,7 @@ Linear crossings and rub peaks alike. Summary, Campbell diagram and page show th
 
 from collections.abc import Iterable, Iterator, Mapping
 from itertools import groupby
-from math import isfinite
+from math import inf, isfinite
 from operator import itemgetter
 from typing import Any
 
@@ -65,7 +65,7 @@ def rows(
             "excited": excited.get(
                 row["k"], "" if row["quadratic_rpm"] or row.get("rpm_to") else SEEN
             ),
-            "speed_margin": rpm and row["rpm"] / rpm - 1,
+            "speed_margin": rpm and _nearest(row, rpm) / rpm - 1,
             # (f - k Omega) / (k Omega) at the operating speed; None of a rub peak
             "frequency_margin": rpm
             and row["quadratic_rpm"]
@@ -74,9 +74,16 @@ def rows(
         for name, rpm in (campbell["lines"] or {None: None}).items()
         for row in sorted(
             [*crossings, *peaks],
-            key=lambda row, rpm=rpm: abs(row["rpm"] / rpm - 1) if rpm else row["rpm"],
+            key=lambda row, rpm=rpm: abs(_nearest(row, rpm) / rpm - 1) if rpm else row["rpm"],
         )
     ]
+
+
+def _nearest(row: Critical, rpm: float) -> float:
+    """The critical speed, or that of a range, which is nearest to ``rpm``."""
+    end = row.get("rpm_to")
+    high = inf if end and row["bound"] else end or row["rpm"]
+    return min(max(rpm, row["rpm"]), high)
 
 
 def near(margins: Iterable[Margin]) -> list[Margin]:
@@ -127,8 +134,8 @@ def range_of(met: Mapping[str, Any]) -> str:
     return f"{met['rpm']:.0f} to {met['rpm_to']:.0f}{' and above' * met['bound']}"
 
 
-def of_casing(whirls: Iterable[Mapping[str, Any]], relative: float) -> list[Critical]:
-    """The ``whirls`` of a scene as critical speeds; ``relative``: error of the frequencies."""
+def of_casing(whirls: Iterable[Mapping[str, Any]]) -> list[Critical]:
+    """The ``whirls`` of a scene as critical speeds."""
     return [
         {
             "what": f"fed by rotation, with order {mode['order']} of the casing",
@@ -138,7 +145,7 @@ def of_casing(whirls: Iterable[Mapping[str, Any]], relative: float) -> list[Crit
             "rpm_to": met["rpm_to"],
             "quadratic_rpm": None,
             "bound": met["bound"],
-            "rpm_error": relative * met["rpm"],
+            "rpm_error": None,
             "least": True,
         }
         for mode in whirls
@@ -147,13 +154,13 @@ def of_casing(whirls: Iterable[Mapping[str, Any]], relative: float) -> list[Crit
 
 
 def fed(whirls: Iterable[Mapping[str, Any]]) -> Iterator[str]:
-    """A line for each mode of the casing: where rotation feeds blade and casing in contact."""
+    """Where rotation feeds blade and casing in a lasting rub, for each pair of the casing."""
     for mode in whirls:
-        ranges = ", ".join(f"mode {met['mode']} at {range_of(met)}" for met in mode["met"])
-        none = f"none of modes 1 to {mode['modes']} up to {mode['up_to']:.0f}"
+        ranges = ", ".join(f"mode {met['mode']} at {range_of(met)} rpm" for met in mode["met"])
+        none = f"none of modes 1 to {mode['modes']} up to {mode['up_to']:.0f} rpm"
         yield (
-            f"Casing of order {mode['order']}, {mode['Hz']:.6g} Hz: rotation feeds a lasting rub "
-            f"where n Ω = f + f_n, from the free blade to one in contact, rpm: {ranges or none}."
+            f"Fed by rotation with order {mode['order']} of the casing, {mode['Hz']:.6g} Hz (n Ω = "
+            f"f + f_n, from the free blade to one in contact): {ranges or none}."
         )
 
 

@@ -146,7 +146,7 @@ COMPUTED = (
     ("levels", TRADE, trade_table.by_level),
     ("converges", "results/experiments/interface/table.json", interface.results),
     ("nodes", f"{KEPT}/nodes.csv", kept),
-    ("moving-casing", f"{KEPT}/casings.csv", kept),
+    ("casings", f"{KEPT}/casings.csv", kept),
     ("large", f"{KEPT}/large.csv", kept),
     ("solvers", f"{KEPT}/solvers.csv", kept),
     ("requirements", TRADE, trade_table.requirements),

@@ -159,7 +159,7 @@ def _scene(
         for row in rows
         if row["k"]
     ]
-    of_casing = margins.of_casing(results["whirls"], _model_error(results))
+    of_casing = margins.of_casing(results["whirls"])
     return {
         **{key: results[key] for key in COPIED},
         "answers_s": sum(peak.seconds for peak in [*found, *worst]),

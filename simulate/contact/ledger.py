@@ -9,10 +9,10 @@ rod from its state before the step to strain eps, summed over the rods under the
     elastic         energy left in the rods under the tip
     plastic         work that wears
     work            of the contact forces on the blade
-    casing_work     of the contact forces on the motion of a casing that is not rigid
+    on_casing       of the contact forces on the motion of a casing that is not rigid
     friction        work of the tangential forces on blade and casing, where the tip slides with
                     friction
-    numerical       work + casing_work - friction + elastic + plastic + released - casing
+    numerical       work + on_casing - friction + elastic + plastic + released - casing
 
 The ledger is of all liner that comes under the tip, whether a step sees it there or not: a rod that
 comes and goes within a step, and the area that bears in none where the footprint is lengthened
@@ -51,7 +51,7 @@ class Ledger:
     friction: float = 0.0  # of work: that of the tangential forces of a sliding tip
     heat: float = 0.0  # of friction, from the shaft, whose work is heat + friction
     # of a casing that moves
-    casing_work: float = 0.0  # of the contact forces on its motion
+    on_casing: float = 0.0  # of the contact forces on its motion
     casing_kinetic: float = 0.0  # energy at the end
     casing_elastic: float = 0.0  # energy at the end
     casing_damping: float = 0.0  # dissipated in it
@@ -66,7 +66,7 @@ class Ledger:
     def numerical(self) -> float:
         """Created (> 0) or lost (< 0) by the scheme in contact, J."""
         stored = self.elastic - self.elastic_before
-        radial = self.work + self.casing_work - self.friction
+        radial = self.work + self.on_casing - self.friction
         return radial + stored + self.plastic + self.released - self.casing
 
 

@@ -1,6 +1,6 @@
 """Refusals of a scene that does not fit its reduced model; those of its step are in ``setup``."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from math import ceil
 
 import numpy as np
@@ -15,7 +15,6 @@ from simulate.contact.places import Places, mean_footprint, rods_in_footprint, s
 from simulate.marching.moving_casing import LONGEST_FOOTPRINT
 from simulate.marching.setup import SceneError, edge_slope, least_gap
 from simulate.scene import Casing, Contact, Gaps, Liner, Profile, Scene, Speeds
-from simulate.scene.casing_modes import CasingMode
 from simulate.scene.laws import LAWS
 from simulate.scene.own_laws import Unread
 
@@ -48,7 +47,7 @@ def check_scene(scene: Scene, rom: Rom) -> None:
         *_gaps(scene.gaps, rom),
         *outgrown,
         *(_edge(scene.gaps, liner, scene.contact.profile, rom, speeds) if has_gaps else ()),
-        *_moving(casing.moves, places, rom.across, speeds.max()),
+        *_moving(casing, places, rom.across, speeds.max()),
     ]
     if faults:
         raise SceneError(*faults)
@@ -245,22 +244,21 @@ def _gaps(of: Gaps, rom: Rom) -> Iterator[Fault]:
         )
 
 
-def _moving(
-    modes: Sequence[CasingMode], places: Places, across: int, highest: float
-) -> Iterator[Fault]:
+def _moving(casing: Casing, places: Places, across: int, highest: float) -> Iterator[Fault]:
     """Modes of the casing that bend under a row of the tip, or run away for want of damping.
 
     ``across``: rows across the thickness; ``highest``: speed, rad/s.
     """
     half = float((places.footprint / places.radius).max()) / 2 / across
-    for i, mode in enumerate(modes):
+    for i, mode in enumerate(casing.moves):
+        order, key = ("orders", "ring") if casing.ring else ("order", f"modes.{i}")
         if mode.order * half > LONGEST_FOOTPRINT:
             most = int(LONGEST_FOOTPRINT / half)
             yield Fault(
                 f"half of the arc of the tip that has one displacement is {half:.3g} rad, over "
                 f"which this mode turns by {mode.order * half:.2g}; allowed up to "
                 f"{LONGEST_FOOTPRINT}: orders up to {most}",
-                f"casing.modes.{i}.order",
+                f"casing.{key}.{order}",
                 mode.order,
                 {"le": most},
             )
@@ -270,7 +268,7 @@ def _moving(
                 f"without damping the mode runs away above its frequency over its order, "
                 f"{RPM * whirls:.6g} rpm; the speeds go up to {RPM * highest:.6g}: give its "
                 "damping, above 0",
-                f"casing.modes.{i}.damping_ratio",
+                f"casing.{key}.damping_ratio",
                 0.0,
                 {"gt": 0},
             )

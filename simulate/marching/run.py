@@ -105,8 +105,9 @@ class Outcome:
     # (times, 2 gauges): strain along gauges, 1, then stress, Pa, of the vibration, at every other
     # sample of the revolutions of the spectrum, else of the last; nan in those not computed
     gauges: NDArray[np.float64]
-    time_constant: float = nan  # revolutions, of the mode that responds in the last one; inf
+    # revolutions, of the mode that responds in the last one, or of a slower one of the casing; inf
     # without damping, nan where the run ended early
+    time_constant: float = nan
     trend: str = TOO_SHORT  # whether the motion is steady
     final: FinalState | None = None  # start of the next run, where it is asked for
     reason: str = ""  # of a run without contact: why the tip did not touch
@@ -163,8 +164,8 @@ def _start(
         rows = [array[_row(done, len(array) - 1, rounds, until)] for array in kept]
         read = always or done >= rounds - record.rounds_of_spectrum
         Phi = Phi_out if read else Phi_out[: len(setup.edges)]
-        of_casing = {"casing": casing, "first": setup.omega.size}
-        recorded = Recorded(*rows, Phi=Phi, weights=weights, **of_casing)
+        first = setup.omega.size
+        recorded = Recorded(*rows, Phi=Phi, weights=weights, casing=casing, first=first)
         of_setup = setup.ramp, setup.bound, before + done, setup.steps
         return setup.blade, strips, state, recorded, *of_setup
 
@@ -212,6 +213,9 @@ def march(scene: Scene, setup: Setup, start: FinalState | Worn | None = None) ->
         touched, step, end, node = kernel(*of_kernel)
         contacts += touched
         worked.append(float(state.energies[CASING]))
+        if of_casing:
+            of_casing.add(of_kernel[3].casing[: step * scene.record.samples_per_round // steps])
+            end = ESCAPED if end == RUNNING and of_casing.largest > setup.bound else end
         if end == RUNNING:
             samples, worn = of_kernel[3].samples, _worn(setup, state)
             for edge, each in enumerate(at_edges):
@@ -221,15 +225,19 @@ def march(scene: Scene, setup: Setup, start: FinalState | Worn | None = None) ->
                 gauges[row - 1] = modal @ setup.Phi_gauges.T
             if most:
                 most.add(done + 1, of_kernel[3].states)
-            if of_casing:
-                of_casing.add(of_kernel[3].casing)
-                end = ESCAPED if of_casing.largest > setup.bound else end
         done += 1
         if done in judged or end != RUNNING:
             whole = end == RUNNING
             moves = int(np.argmax([each.most for each in at_edges]))
             of_edge = samples[:, moves] if whole else None
-            tau = nan if of_edge is None else time_constant(of_edge, setup.omega, setup.Omega, zeta)
+            tau = (
+                nan
+                if of_edge is None
+                else max(
+                    time_constant(of_edge, setup.omega, setup.Omega, zeta),
+                    setup.moving.time_constant(setup.Omega),
+                )
+            )
             words.append(at_edges[moves].trend(standing, tau))
     marched = (done - 1) * steps + step
     taken = np.full((scene.rounds, 1), steps)
@@ -368,7 +376,7 @@ def _ledger(
         elastic_before=before[1],
         friction=float(energies[FRICTION]),
         heat=float(energies[HEAT]),
-        casing_work=on_casing,
+        on_casing=on_casing,
         casing_kinetic=after[2],
         casing_elastic=after[3],
         casing_damping=of_casing,
@@ -417,7 +425,8 @@ def begin(state: State, start: FinalState | Worn, setup: Setup) -> None:
         q, v = integrator.motion_of(start.omega, zeta, start.h, x, y)
         q, v = (np.linalg.solve(setup.Phi, start.Phi @ part) for part in (q, v))
         x, y = integrator.turns_of(setup.omega, zeta, setup.h, q, v)
-        motion.x[rows], motion.y[rows] = start.x, start.y  # of the casing, in the frame of its step
+        # of the casing, in the frame of the middle of its last step, as many to a revolution there
+        motion.x[rows], motion.y[rows] = start.x, start.y
         motion.x[rows, :n], motion.y[rows, :n] = x, y
         motion.u[rows] = motion.x[rows] @ setup.blade.Phi.T
     motion.moved[:] = start.moved

@@ -16,7 +16,7 @@ from typing import Annotated, ClassVar
 
 from pydantic import Field
 
-from geometry.base import Settings, SettingsError, checked, known
+from geometry.base import Settings, SettingsError, check_settings, checked, known
 from simulate.scene.tables import rows_from_csv
 
 HIGHEST_DIAMETERS = 60  # of a mode of the casing
@@ -44,16 +44,21 @@ class CasingMode(Settings):
     radial: float | None = Field(
         default=None,
         gt=0,
+        le=1e3,
         description="Instead: radial value of the mass-normalised mode at the tip's plane "
         "(kg^-1/2), of which the sign is free",
     )
     tangential: float | None = Field(
         default=None,
+        ge=-1e3,
+        le=1e3,
         description="With `radial`: its tangential value, of sin(order theta), in the sense of "
         "rotation (kg^-1/2); by default -radial/order",
     )
     axial: float | None = Field(
         default=None,
+        ge=-1e3,
+        le=1e3,
         description="With `radial`: its axial value, of cos(order theta), downstream (kg^-1/2), by "
         "default 0: it counts on a casing that tapers",
     )
@@ -126,6 +131,19 @@ class Ring(Settings):
         if len({*self.orders}) < len(self.orders):
             raise SettingsError("names an order twice", key="orders", value=self.orders)
 
+    @checked
+    def _thin_with_modes(self) -> None:
+        if self.thickness_mm > self.radius_mm / 3:
+            raise SettingsError(
+                "no thin ring: allowed up to a third of radius_mm",
+                key="thickness_mm",
+                value=self.thickness_mm,
+            )
+        try:
+            self.modes  # noqa: B018
+        except SettingsError as error:
+            raise SettingsError(f"of these sizes it has a mode that is refused: {error}") from None
+
     @property
     def modes(self) -> list[CasingMode]:
         """Its modes, one for each of the ``orders``."""
@@ -145,14 +163,9 @@ class Ring(Settings):
             if n:
                 omega *= b / R * n * (n**2 - 1) / sqrt(bends * (n**2 + 1))
                 m = mass / 2 * (1 + 1 / n**2)
-            found.append(
-                CasingMode(
-                    order=n,
-                    frequency_Hz=omega / (2 * pi),
-                    modal_mass_kg=m,
-                    damping_ratio=self.damping_ratio,
-                )
-            )
+            of_order = {"order": n, "frequency_Hz": omega / (2 * pi), "modal_mass_kg": m}
+            of_order |= {"damping_ratio": self.damping_ratio}
+            found.append(check_settings(CasingMode, of_order, f"order {n}"))
         return found
 
 

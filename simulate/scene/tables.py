@@ -63,7 +63,12 @@ def rows_from_csv(model: type[Settings]) -> BeforeValidator:
 
     def of_rows(lines: Lines) -> list[Settings]:
         """One in each row below the first."""
-        (_, header), *rows = lines or [(1, [])]
+        (at, header), *rows = lines or [(1, [])]
+        if len({*header}) < len(header) or {*header} - {*model.model_fields}:
+            raise ValueError(
+                f"line {at}: columns {shown(', '.join(header))}: should be some of "
+                f"{', '.join(model.model_fields)}, each once"
+            )
         return [_row(model, header, *row) for row in rows]
 
     return _of_file(of_rows)
@@ -86,8 +91,10 @@ def _of_file(of_lines: Callable[[Lines], Any]) -> BeforeValidator:
 
 
 def _row(model: type[Settings], header: Sequence[str], line: int, cells: Sequence[str]) -> Settings:
-    """The ``model`` in a line of a CSV file."""
-    values = dict(zip(header, numbers(cells, header, line), strict=True))
+    """The ``model`` in a line of a CSV file; empty cells are not given."""
+    found = numbers([cell or "0" for cell in cells], header, line)
+    named = zip(header, cells, found, strict=True)
+    values = {name: value for name, cell, value in named if cell}
     try:
         return check_settings(model, values, "")
     except ValueError as error:

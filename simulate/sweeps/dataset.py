@@ -63,16 +63,19 @@ ENERGIES = (
     "scheme = work + elastic - elastic_before + plastic + released - casing"
 )
 OF_CASING = (
-    "; casing_work: of the contact forces on the motion of the casing; casing_kinetic, "
+    "; on_casing: of the contact forces on the motion of the casing; casing_kinetic, "
     "casing_elastic: its energy at the end; casing_damping: dissipated in it; casing_before: its "
     "energy at the start"
 )
 OF_FRICTION = (
-    "; friction: of work and casing_work, that of the tangential forces; heat: of friction, from "
+    "; friction: of work and on_casing, that of the tangential forces; heat: of friction, from "
     "the shaft"
 )
 BY_FRICTION = ("friction", "heat")  # energies of a run with friction alone
-BY_CASING = tuple(f"casing_{what}" for what in ("work", "kinetic", "elastic", "damping", "before"))
+BY_CASING = (
+    "on_casing",
+    *(f"casing_{what}" for what in ("kinetic", "elastic", "damping", "before")),
+)
 VARIABLES = {  # of each run: dimensions beside the speed, unit, meaning
     "status": ("", "1", "how the run ended"),
     "reason": ("", "1", "why a run is without contact; empty otherwise"),
@@ -437,7 +440,7 @@ def of_run(run: Run) -> xr.Dataset:
     moves, slides = bool(scene.casing.moves), scene.contact.friction is not None
     said = {
         "record": scene.record,
-        "terms": " + casing_work" * moves + " - friction" * slides,
+        "terms": " + on_casing" * moves + " - friction" * slides,
         "of_casing": OF_CASING * moves,
         "of_friction": OF_FRICTION * slides,
         "since": "the end of the run" if scene.until else "the start",

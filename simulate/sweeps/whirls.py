@@ -22,7 +22,7 @@ from simulate.sweeps.crossings import crossings_of, first_frequencies
 
 
 def whirls(rom: Rom, liner: Liner, casing: Casing, modes: int) -> list[dict[str, Any]]:
-    """Ranges of speed in which each mode of a casing meets the first ``modes`` of the blade.
+    """Ranges of speed in which each pair of a casing meets the first ``modes`` of the blade.
 
     Of each its ``order`` and frequency ``Hz``, the number of ``modes``, the highest speed ``up_to``
     of the model, rpm, and those ``met``: the blade's ``mode``, the speeds ``rpm`` with the free
@@ -32,7 +32,7 @@ def whirls(rom: Rom, liner: Liner, casing: Casing, modes: int) -> list[dict[str,
     unit, up_to = RPM * rom.omega1, RPM * rom.Omega_m
     free = partial(first_frequencies, rom, modes, 0)
     engaged, found = partial(_engaged, rom, liner, casing, modes), []
-    for mode in casing.moves:
+    for mode in (mode for mode in casing.moves if mode.order):
         ends = _met(rom, engaged, mode)
         met = [
             {
@@ -54,7 +54,7 @@ def _met(rom: Rom, f: Any, mode: CasingMode) -> dict[int, float]:
     of_casing = mode.frequency_Hz / rom.f1
     highest = rom.Omega_m / rom.omega1
     met = crossings_of(lambda speed: f(speed) + of_casing, [mode.order], 0.0, highest)
-    return {number: speed for number, _, speed in reversed(met)}
+    return dict(sorted((number, speed) for number, _, speed in met))
 
 
 def _engaged(

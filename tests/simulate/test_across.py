@@ -205,7 +205,7 @@ def test_no_energy_is_created_and_its_error_falls_with_the_step(edges_rom, of):
         run = march(case, prepare(case, edges_rom, edges_rom.omega1 * 0.34))
         ledger = run.ledger
         assert run.status == "ok" and run.facts.unsolved == 0 and run.contact_share > 0.05
-        assert (ledger.casing_work != 0) == (of == "moving casing")
+        assert (ledger.on_casing != 0) == (of == "moving casing")
         blade = ledger.blade - ledger.blade_before + ledger.damping
         assert blade == pytest.approx(ledger.work, rel=1e-9)
         errors.append(ledger.numerical / ledger.casing)

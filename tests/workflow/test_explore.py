@@ -173,7 +173,7 @@ def test_the_page_tells_the_motion_of_the_casing(response):
     )
     told = facts_of(Response(moves, response.rom))["tables"][1]
     assert told["says"] == "radial motion of the casing, µm"
-    assert [*told["of"]] == ["largest", "order 2, 400 Hz", "order 0, 1200.5 Hz"]
+    assert [*told["of"]] == ["largest", "1: order 2, 400 Hz", "2: order 0, 1200.5 Hz"]
     assert [values[0] for values in told["of"].values()] == pytest.approx([4, 3, 1])
 
 

@@ -101,7 +101,7 @@ def test_nearest_first_and_what_is_far_is_in_the_csv_file_alone(told):
 MET = {"mode": 1, "rpm": 1000.0, "rpm_to": 1200.0, "bound": False, "f_over_Omega": 3.4}
 WHIRLS = [
     {"order": 2, "Hz": 40.0, "modes": 4, "up_to": 1800.0, "met": [MET]},
-    {"order": 0, "Hz": 90.5, "modes": 4, "up_to": 1800.0, "met": []},
+    {"order": 3, "Hz": 90.5, "modes": 4, "up_to": 1800.0, "met": []},
 ]
 
 
@@ -109,19 +109,27 @@ def test_a_range_in_which_rotation_feeds_the_casing_is_a_critical_speed_everywhe
     found = told(whirls=WHIRLS)
     scene = found["scenes"][0]
     (row,) = (row for row in scene["margins"] if row["rpm_to"] and row["line"] == "idle")
-    assert row["speed_margin"] == pytest.approx(1000 / (LINES["idle"]) - 1)
+    assert row["speed_margin"] == 0  # at its end
     cells = ["fed by rotation, with order 2 of the casing", "1", "3.4", "-", "1000 to 1200"]
     near = margins.table(scene["margins"])
     assert any(of[1:6] == cells for of in near)
     page = summary.panel(MINE | {"whirls": WHIRLS}, critical(rom, OPERATING), {})
     for text in (summary.table(found), summary.terminal(found), "\n".join(page["notes"])):
-        assert "order 2, 40 Hz: " in text and "rpm: mode 1 at 1000 to 1200." in text
-        assert "order 0, 90.5 Hz: " in text and "none of modes 1 to 4 up to 1800." in text
+        assert "order 2 of the casing, 40 Hz (" in text
+        assert "): mode 1 at 1000 to 1200 rpm." in text
+        assert "order 3 of the casing, 90.5 Hz (" in text
+        assert "): none of modes 1 to 4 up to 1800 rpm." in text
         assert "nearest rub peak" in text  # a range is none
     (of,) = (row for row in of_csv(found) if row["rpm_to"] and row["line"] == "idle")
     assert (float(of["rpm"]), float(of["rpm_to"]), of["quadratic_rpm"]) == (1000, 1200, "")
     beyond = MET | {"bound": True}
     assert margins.range_of(beyond) == "1000 to 1200 and above"
+    # from the nearest end, 0 inside, and as far as it goes on
+    for met, rpm, expected in ((MET, 1100, 0), (MET, 1250, -0.04), (beyond, 1700, 0)):
+        campbell = critical(rom, OPERATING | {"lines": {"idle": float(rpm)}})
+        (of_range,) = margins.of_casing([WHIRLS[0] | {"met": [met]}])
+        (row,) = (row for row in margins.rows(campbell, [of_range]) if row["rpm_to"])
+        assert row["speed_margin"] == pytest.approx(expected)
 
 
 def of_csv(found):

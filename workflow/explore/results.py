@@ -159,7 +159,9 @@ def of_casing(sweep: xr.Dataset) -> list[dict[str, Any]]:
     if "casing_spectrum" in sweep:
         by_mode = amplitude(sweep["casing_spectrum"].values, rounds=1).T
         names = zip(sweep["casing_order"].values, sweep["casing_frequency"].values, strict=True)
-        found |= {f"order {n}, {Hz:.6g} Hz": a for (n, Hz), a in zip(names, by_mode, strict=True)}
+        found |= {
+            f"{i}: order {n}, {Hz:.6g} Hz": by_mode[i - 1] for i, (n, Hz) in enumerate(names, 1)
+        }
     of = {name: plain(1e6 * values) for name, values in found.items()}
     return [{"says": "radial motion of the casing, µm", "of": of}]
 
