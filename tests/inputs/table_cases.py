@@ -19,6 +19,7 @@ from geometry.base import Settings, SettingsError, about, check_settings
 from geometry.blade import Blade
 from geometry.section_table import read_sections
 from simulate.scene import Scene
+from simulate.scene.casing_modes import AnyModes
 from simulate.scene.laws.table import STRAIN, STRESS, Curve
 from simulate.scene.tables import (
     GROWTHS,
@@ -246,6 +247,38 @@ def other_tables() -> Cases:
     return st.sampled_from(sorted(TABLES, key=str)).flatmap(of)
 
 
+MODES = """order,frequency_Hz,modal_mass_kg,radial,damping_ratio
+0,900,20,,0.01
+2,400,,0.3,0.005
+3,700.5,9,,0
+"""
+
+
+def modes() -> Cases:
+    """Modes of a casing: cells, lines and columns changed."""
+
+    def case(change: str, text: str, must: str = "either") -> Case:
+        def read(folder: Path) -> Any:
+            holder = create_model("Scene", __base__=Settings, table=AnyModes)
+            return check_settings(holder, {"table": folder / "t.csv"}, "scene.yaml").table
+
+        def fault(table: Any) -> str:
+            names = [name.strip() for name in text.split("\n")[0].split(",")]
+            rows = _rows(_numeric(text))
+            said = [
+                {name: float(of) for name, of in zip(names, row, strict=True) if of.strip()}
+                for row in rows
+            ]
+            held = [mode.model_dump(exclude_unset=True) for mode in table]
+            return "" if held == said else "holds other numbers"
+
+        return Case("table", change, {"t.csv": text.encode()}, read, must, fault)
+
+    rows, names = [1, 2, 3], ["", "order", "Hz", "axial", "frequency_hz", "damping_ratio "]
+    changed = cell(MODES, rows, NUMBERS) | long(MODES, [0, *rows]) | cut(MODES)
+    return (changed | cell(MODES, [0], names)).map(lambda change: case(*change))
+
+
 def table_cases() -> Cases:
     """All of these."""
-    return st.one_of(sections(), sections(), casings(), designs(), other_tables())
+    return st.one_of(sections(), sections(), casings(), designs(), other_tables(), modes())
