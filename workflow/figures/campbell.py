@@ -27,6 +27,9 @@ SHOWN = 7  # modes, compared by the paper
 PLAIN: Mapping[str, Any] = {"lines": {}, "modes": MODES, "orders": ORDERS, "excited": {}}
 FASTEST = 4  # crossings marked where no casing and no operating speed is known
 HEADROOM = 0.06  # above f1, for the labels of the engine orders
+NAMED_AT = np.array(
+    [0.5, 0.4, 0.6, 0.3, 0.7]
+)  # of the axes, where lines of the casing may be named
 BEHIND = {"facecolor": "white", "edgecolor": "none", "pad": 0.6}
 
 
@@ -130,8 +133,10 @@ def _casing(axes: Axes, casing: Sequence[tuple[int, float]], f1_Hz: float) -> No
         lines = np.column_stack([f + order * speeds, np.abs(f - order * speeds)])
         axes.plot(speeds, lines, ":", color=style.GREEN, label=[label, None])
         label = None
-        if axes.get_ylim()[0] < f < axes.get_ylim()[1]:
-            style.note(axes, (0.0, f), f"$n$ = {order}", (3, 3), color=style.GREEN)
+        low, high = axes.get_ylim()
+        both = ((x, y) for x in NAMED_AT * end for y in (f + order * x, abs(f - order * x)))
+        for place in [(x, y) for x, y in both if 0 < low < y < high][:1]:  # not among all modes
+            style.note(axes, place, f"$n$ = {order}", (2, 2), color=style.GREEN)
 
 
 def _crossings(
