@@ -77,6 +77,7 @@ STRIP = np.dtype(
         ("ramp", float),  # share of the casing distortion at the last contact
         ("slid", float),  # rods that the tip passes in the step
         ("moved", float),  # m, half of the tangential displacement in the step
+        ("came", float),  # m, by which a casing that moves comes as the tip passes along it
         ("low", int),  # first rod that the tip reaches in the step,
         ("high", int),  # and the first behind it that it does not,
         ("reach", float),  # m, at radial displacements up to this
@@ -334,11 +335,11 @@ def deepest_reach(strips, covered, i, k, w_from, w, lean_from, lean, first, last
     """Deepest penetration (m) over the centre of rod ``k``, from ``first`` to ``last`` of the step.
 
     The tip goes from ``w_from``, ``lean_from`` to ``w``, ``lean`` (m) in the step, and slides by
-    ``slid`` rods. A casing that travels goes on its way, too, halfway to the place of the rod's
-    ``at_rest``.
+    ``slid`` rods. A casing that travels, or moves, goes on its way, too, halfway to the place of
+    the rod's ``at_rest``.
     """
     strip, tip = covered.strips[i], strips.tip
-    approach = strips.waves.approach(strips, strip.at, k)
+    approach = strips.waves.approach(strips, strip, k)
     way, at_rest = w - w_from + approach, covered.rods[i, k].at_rest - approach / 2
     if tip.half[i] == 0.0 and len(strips.rows) == 1:
         return at_rest + w_from + max(first * way, last * way)
@@ -363,7 +364,7 @@ def worn_to(strips, covered, i, k, w_from, w, lean_from, lean, share, eps_p, yie
     """
     law, strip = strips.law, covered.strips[i]
     first, last = covered_share(strips, i, k, strip.passed, strip.slid)
-    approach = strips.waves.approach(strips, strip.at, k)
+    approach = strips.waves.approach(strips, strip, k)
     level = strips.tip.half[i] == 0.0 and len(strips.rows) == 1
     if level and last - first == 1.0 and approach == 0.0:
         return yielded

@@ -58,7 +58,7 @@ def stands_in_step(strips, state, step):
 
 
 @compiled
-def no_approach(strips, at, k):
+def no_approach(strips, strip, k):
     """A casing that stands comes by 0 m."""
     return 0.0
 
@@ -152,9 +152,9 @@ def place(strips, j, a):
 
 
 @compiled
-def approach(strips, at, k):
-    """How far the casing comes in the step at rod ``k`` of the window from rod ``at``, m."""
-    return strips.waves.way[(at + k) % strips.d.size]
+def approach(strips, strip, k):
+    """How far the casing comes in the step at rod ``k`` of the window on a strip, m."""
+    return strips.waves.way[(strip.at + k) % strips.d.size]
 
 
 def waves(

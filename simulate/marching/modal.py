@@ -61,6 +61,7 @@ class Motion(NamedTuple):
     force: NDArray[np.float64]  # (rows,), N, of the liner on the blade, inward and backward
     modal: NDArray[np.float64]  # (n,), N kg^-1/2, Phi^T force
     free: NDArray[np.float64]  # (rows,), m, radial displacements that meet no rod for some steps
+    came: NDArray[np.float64]  # (rows,), m, by turning a casing that moves to the frame of a step
 
 
 class Step(NamedTuple):
@@ -92,7 +93,8 @@ def at_rest(scheme: Scheme) -> Motion:
     """A blade that stands still, unloaded."""
     rows, n = scheme.Phi.shape
     x, y, u = (_zeros((TURNS, size)) for size in (n, n, rows))
-    return Motion(x, y, u, np.zeros(rows), np.zeros(rows), _zeros((n,)), np.zeros(rows))
+    moved, force, free, came = (np.zeros(rows) for _ in range(4))
+    return Motion(x, y, u, moved, force, _zeros((n,)), free, came)
 
 
 def rows_of(*rows: NDArray[np.float64]) -> NDArray[np.float64]:

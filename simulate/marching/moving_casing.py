@@ -23,9 +23,11 @@ from typing import NamedTuple, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from simulate.contact import travelling
 from simulate.contact.compiled import compiled, compiled_sums
 from simulate.contact.ledger import ON_CASING
 from simulate.contact.places import Places
+from simulate.contact.travelling import STANDING, Waves
 from simulate.marching import piecewise_exact
 from simulate.marching.modal import Motion, Scheme
 from simulate.scene.casing_modes import CasingMode
@@ -51,6 +53,7 @@ class Turning(NamedTuple):
 def turn(scheme, motion, last):
     """Turn the pairs to the frame of a step that begins at turn ``last``, and displace its rows."""
     x, y, u, turning = motion.x, motion.y, motion.u, scheme.turning
+    motion.came[:] = 0.0
     for p in range(turning.pairs.size):
         k, sine, versine = turning.pairs[p], turning.sine[p], turning.versine[p]
         x_p, x_q, y_p, y_q = x[last, k], x[last, k + 1], y[last, k], y[last, k + 1]
@@ -60,18 +63,45 @@ def turn(scheme, motion, last):
         y[last, k] = y_p + (sine * y_q - versine * y_p)
         y[last, k + 1] = y_q - (sine * y_p + versine * y_q)
         for row in range(u.shape[1]):
-            u[last, row] += turning.rows[p, 0, row] * way_p + turning.rows[p, 1, row] * way_q
+            came = turning.rows[p, 0, row] * way_p + turning.rows[p, 1, row] * way_q
+            u[last, row] += came
+            motion.came[row] += came
 
 
 @compiled
 def book(scheme, strips, state, step):
-    """Book the work of the contact forces on the casing, which moves every rod in a step."""
+    """Book the work of the contact forces on the casing."""
     motion, columns = state.motion, scheme.turning.columns
     for k in range(columns[0], columns[1]):
         way = motion.x[step.now, k] - motion.x[step.last, k]
         state.energies[ON_CASING] -= motion.modal[k] * way
+
+
+@compiled
+def follow(strips, state, step):
+    """A casing that comes as the tip passes along it: each rod has moved since the last contact."""
     for i in range(strips.g0.size):
-        state.covered.strips[i].ramp = np.nan
+        strip = state.covered.strips[i]
+        strip.ramp, strip.came = np.nan, state.motion.came[i]
+
+
+@compiled
+def follow_both(strips, state, step):
+    """The same of a casing that travels, too."""
+    travelling.follow(strips, state, step)
+    follow(strips, state, step)
+
+
+@compiled
+def approach(strips, strip, k):
+    """How far the casing comes in the step, m."""
+    return strip.came
+
+
+@compiled
+def approach_both(strips, strip, k):
+    """The same of a casing that travels, too."""
+    return travelling.approach(strips, strip, k) + strip.came
 
 
 @dataclass(frozen=True)
@@ -113,6 +143,14 @@ class Moving:
         """Longest time constant of the modes, revolutions at ``Omega``; inf without damping."""
         with np.errstate(divide="ignore"):
             return float((Omega / (2 * np.pi * self.zeta * self.omega)).max(initial=0.0))
+
+    def under(self, waves: Waves) -> Waves:
+        """Harmonics of the casing, as the kernel meets them on one that moves."""
+        if not self.order.size:
+            return waves
+        if waves is STANDING:
+            return waves._replace(follow=follow, approach=approach)
+        return waves._replace(follow=follow_both, approach=approach_both)
 
     def energies(self, h: float, motion: Motion, now: int, first: int) -> tuple[float, float]:
         """Kinetic and elastic energy, J, at turn ``now``; its columns begin at ``first``."""

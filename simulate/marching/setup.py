@@ -134,6 +134,7 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
         if integrator.scheme == "piecewise-exact"
         else None,
     )
+    strips = strips._replace(waves=moving.under(strips.waves))
     _check_start(casing, strips)
     rows = rows_of(closing, tangential, lean)
     blade = SCHEMES[integrator.scheme].coefficients(marched, rows, damped, h)

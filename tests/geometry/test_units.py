@@ -17,8 +17,9 @@ from simulate.scene.laws.plastic import Plastic
 from simulate.scene.tables import Table, Thermal
 from workflow.many.columns import placed, value_at
 
-UNITS = {"mm", "um", "rpm", "MPa", "GPa", "deg"}  # of lengths, speeds, stresses, angles
-OTHERS = {"m", "cm", "rad_s", "s", "Pa", "kPa", "Hz", "hz", "rad"} | {*FORMER}
+# of lengths, speeds, stresses, angles, frequencies, masses
+UNITS = {"mm", "um", "rpm", "MPa", "GPa", "deg", "Hz", "kg"}
+OTHERS = {"m", "cm", "rad_s", "s", "Pa", "kPa", "hz", "kHz", "g", "rad"} | {*FORMER}
 
 
 @pytest.mark.parametrize("model", [Blade, MatricesElsewhere, Scene])

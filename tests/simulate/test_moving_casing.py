@@ -22,7 +22,7 @@ from pairs import (
 )
 from refused import refused
 from runs import marched, rad_s, set_up
-from scenes import EXACT, SCHEMES, blade_balance, scene
+from scenes import EXACT, RUBBING, SCHEMES, blade_balance, of_steps, scene
 from scipy.linalg import eigh
 from scipy.optimize import minimize_scalar
 
@@ -31,11 +31,13 @@ from rom.polynomial import evaluate
 from simulate.contact.places import mean_footprint
 from simulate.errors.accuracy import choose, march_to_accuracy
 from simulate.errors.model_errors import ModelError
+from simulate.loads import worn_volume
 from simulate.marching import (
     WITH_RESULT,
     FinalState,
     SceneError,
     check_scene,
+    march,
     strip_stiffness,
 )
 from simulate.marching.moving_casing import CasingMotion, moving_casing
@@ -175,6 +177,20 @@ def test_energies_of_blade_and_casing_are_balanced(name, coarse_rom):
     assert ledger.casing_kinetic + ledger.casing_elastic > 0
     if name != "rounded":  # there the ledger's error goes with the step
         assert -2e-3 * whole < ledger.numerical <= 1e-12 * whole  # none is created
+
+
+def test_wear_over_a_moving_casing_is_of_order_two_in_the_step(coarse_rom):
+    """As the tip passes along the casing within a step, so does its reach."""
+    modes = [given(2, 300 / coarse_rom.f1, coarse_rom, 5.0)]
+    of = RUBBING | {"integrator": EXACT, "rounds": 6, "liner__rods_per_round": 8209}
+    case = scene(**of, casing__modes=modes)
+    volumes = []
+    for steps in (768, 1536, 3072, 16384):
+        setup = set_up(case.but(integrator=of_steps(steps)), coarse_rom)
+        wear, places = march(case, setup).wear, setup.places
+        volumes.append(worn_volume(wear, places.width, places.radius))
+    first, second, third = abs(np.array(volumes[:3]) / volumes[3] - 1)
+    assert 3 < first / second < 5.5 and 2.5 < second / third < 5.5 and third < 5e-4
 
 
 def test_a_run_over_a_moving_casing_goes_on_to_the_last_bit(coarse_rom, tmp_path):
