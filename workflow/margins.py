@@ -41,7 +41,7 @@ def rows(
     Parameters
     ----------
     campbell : as of ``simulate.sweeps.crossings.critical``
-    peaks : rub peaks of a sweep
+    peaks : rub peaks of a sweep, and ranges (``of_casing``)
     relative : error of the frequencies; with ``least`` a part of it is not known
     seen : engine orders in the spectra of that sweep
     """
@@ -55,16 +55,15 @@ def rows(
         }
         for crossing in campbell["crossings"]
     ]
+    # ``rpm_to``: end of a range
+    critical = [{"rpm_to": None, **row} for row in (*crossings, *peaks)]
     return [
         {
             "line": name,  # of the operating speed; None without
             "line_rpm": rpm,
-            "rpm_to": None,  # end of a range
             **row,
             # by what its engine order is: a harmonic of the casing, a side band, or ``SEEN``
-            "excited": excited.get(
-                row["k"], "" if row["quadratic_rpm"] or row.get("rpm_to") else SEEN
-            ),
+            "excited": excited.get(row["k"], "" if row["quadratic_rpm"] or row["rpm_to"] else SEEN),
             "speed_margin": rpm and _nearest(row, rpm) / rpm - 1,
             # (f - k Omega) / (k Omega) at the operating speed; None of a rub peak
             "frequency_margin": rpm
@@ -73,7 +72,7 @@ def rows(
         }
         for name, rpm in (campbell["lines"] or {None: None}).items()
         for row in sorted(
-            [*crossings, *peaks],
+            critical,
             key=lambda row, rpm=rpm: abs(_nearest(row, rpm) / rpm - 1) if rpm else row["rpm"],
         )
     ]
@@ -81,7 +80,7 @@ def rows(
 
 def _nearest(row: Critical, rpm: float) -> float:
     """The critical speed, or that of a range, which is nearest to ``rpm``."""
-    end = row.get("rpm_to")
+    end = row["rpm_to"]
     high = inf if end and row["bound"] else end or row["rpm"]
     return min(max(rpm, row["rpm"]), high)
 

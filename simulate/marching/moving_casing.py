@@ -188,14 +188,13 @@ class CasingMotion:
     """Radial motion of the casing over a run."""
 
     moving: Moving
-    steps: int  # in a revolution
     around: NDArray[np.float64]  # (c, angles), m, radial motion by a coordinate of 1
     squares: NDArray[np.float64]  # (c, modes), of the radial values of each mode
     kept: deque[NDArray[np.float64]]  # (samples, c), coordinates in each of the last revolutions
     largest: float = 0.0  # m, anywhere and at any time
 
     @classmethod
-    def room(cls, moving: Moving, steps: int, rounds: int) -> Self | None:
+    def room(cls, moving: Moving, rounds: int) -> Self | None:
         """Before the first revolution, of which the last ``rounds`` are kept; None: it is rigid."""
         if not moving.order.size:
             return None
@@ -206,7 +205,7 @@ class CasingMotion:
         mode = np.cumsum(~moving.twin)[:, None]
         squares = radial**2 * (mode == np.arange(1, mode.max() + 1))
         around = np.asarray(radial * np.cos(order * phi - quarter), float)
-        return cls(moving, steps, around, squares, deque(maxlen=rounds))
+        return cls(moving, around, squares, deque(maxlen=rounds))
 
     def add(self, x: NDArray[np.float64]) -> None:
         """Add a revolution, or its part: coordinates (samples, c) after steps evenly apart."""
@@ -227,8 +226,8 @@ class CasingMotion:
         moving, x = self.moving, np.stack(self.kept)
         first = np.flatnonzero(~moving.twin)
         order, numbers = moving.order[first], np.arange(1, x.shape[1] + 1)
-        # place of the blade in the middle of the step, in whose frame they are
-        theta = 2 * np.pi * (numbers / x.shape[1] - 0.5 / self.steps)[:, None]
+        # of the blade, half a step ahead of the frame they are in: the same phase at all times
+        theta = 2 * np.pi * numbers[:, None] / x.shape[1]
         z = (x[..., first] + 1j * (order > 0) * x[..., first + (order > 0)]) * moving.radial[first]
         z = (z * np.exp(1j * order * theta)).reshape(-1, len(first))
         waves, bins = np.abs(np.fft.fft(z, axis=0).T) / len(z), np.arange(len(z) // 2 + 1)

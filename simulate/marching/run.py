@@ -193,7 +193,7 @@ def march(scene: Scene, setup: Setup, start: FinalState | Worn | None = None) ->
     if start:
         begin(state, start, setup)
     before = _stored(setup, state, first * steps)
-    of_casing = CasingMotion.room(setup.moving, steps, scene.record.rounds_of_spectrum)
+    of_casing = CasingMotion.room(setup.moving, scene.record.rounds_of_spectrum)
     contacts, done, end, worked = 0, 0, RUNNING, [0.0]
     worn, tau, words, moves = _worn(setup, state), nan, [TOO_SHORT], 0
     at_edges = [Rounds.unknown(scene.rounds, worn) for _ in setup.edges]

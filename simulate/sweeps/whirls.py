@@ -31,7 +31,9 @@ def whirls(rom: Rom, liner: Liner, casing: Casing, modes: int) -> list[dict[str,
     """
     unit, up_to = RPM * rom.omega1, RPM * rom.Omega_m
     free = partial(first_frequencies, rom, modes, 0)
-    engaged, found = partial(_engaged, rom, liner, casing, modes), []
+    places = strip_places(rom, liner, casing)
+    P, k = closing_rows(rom, casing, places.xi), strip_stiffness(liner, places)
+    engaged, found = partial(_engaged, rom, P, k, modes), []
     for mode in (mode for mode in casing.moves if mode.order):
         ends = _met(rom, engaged, mode)
         met = [
@@ -58,11 +60,13 @@ def _met(rom: Rom, f: Any, mode: CasingMode) -> dict[int, float]:
 
 
 def _engaged(
-    rom: Rom, liner: Liner, casing: Casing, modes: int, speed: float
+    rom: Rom, P: NDArray[np.float64], k: NDArray[np.float64], modes: int, speed: float
 ) -> NDArray[np.float64]:
-    """First frequencies (modes,), over f1(0), with all strips in contact, at a speed over it."""
+    """First frequencies (modes,), over f1(0), with all strips in contact, at a speed over it.
+
+    ``P`` (m, n): what closes the gaps of the strips; ``k`` (m,): their stiffness, N/m.
+    """
     omega, Phi = rom.modes(speed * rom.omega1)
-    places = strip_places(rom, liner, casing)
-    rows = closing_rows(rom, casing, places.xi) @ Phi
-    K = np.diag(omega**2) + rows.T @ (strip_stiffness(liner, places)[:, None] * rows)
+    rows = P @ Phi
+    K = np.diag(omega**2) + rows.T @ (k[:, None] * rows)
     return np.sqrt(np.linalg.eigvalsh(K)[:modes]) / rom.omega1

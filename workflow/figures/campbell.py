@@ -27,9 +27,7 @@ SHOWN = 7  # modes, compared by the paper
 PLAIN: Mapping[str, Any] = {"lines": {}, "modes": MODES, "orders": ORDERS, "excited": {}}
 FASTEST = 4  # crossings marked where no casing and no operating speed is known
 HEADROOM = 0.06  # above f1, for the labels of the engine orders
-NAMED_AT = np.array(
-    [0.5, 0.4, 0.6, 0.3, 0.7]
-)  # of the axes, where lines of the casing may be named
+NAMED_AT = np.array([0.5, 0.4, 0.6, 0.3, 0.7])  # of the speeds, where a casing's line is named
 BEHIND = {"facecolor": "white", "edgecolor": "none", "pad": 0.6}
 
 
