@@ -39,9 +39,12 @@ def torque(casing_work: NDArray[np.float64], rounds: float = 1.0) -> NDArray[np.
 def torque_of_rounds(scene: Scene, rom: "Rom", outcome: "Outcome") -> NDArray[np.float64]:
     """Mean torque (revolutions,), N m, in each revolution of a run; nan where not computed.
 
-    With a tangential force or friction the forces must have been recorded.
+    Of all blades. With a tangential force or friction the forces must have been recorded.
     """
-    computed = torque(outcome.casing_work), tangential_moment(outcome.force_tangential_mean, rom)
+    blades = outcome.each_blade
+    work = np.sum([blade.casing_work for blade in blades], axis=0)
+    along = np.sum([blade.force_tangential_mean for blade in blades], axis=0)
+    computed = torque(work), tangential_moment(along, rom)
     of_work, moment = (filled(values, scene.rounds) for values in computed)
     if scene.contact.tangential:
         return moment
@@ -81,18 +84,22 @@ def mean_opening(
 
 
 def worn_per_pass(
-    worn: NDArray[np.float64], width: NDArray[np.float64], radius: NDArray[np.float64]
+    worn: NDArray[np.float64],
+    width: NDArray[np.float64],
+    radius: NDArray[np.float64],
+    blades: int = 1,
 ) -> float:
-    """Mean depth, m, by which a passage of the tip opens the clearance: of whole revolutions.
+    """Mean depth, m, by which a passage of a tip opens the clearance: of whole revolutions.
 
-    ``worn`` (revolutions,), m3: volume worn in each; nan in those that did not end. 0 without any.
+    ``worn`` (revolutions,), m3: volume worn in each by so many ``blades``; nan in those that did
+    not end. 0 without any.
 
     >>> worn = np.array([3e-6, 1e-6, np.nan])  # of an area of 0.1 m2
     >>> round(worn_per_pass(worn, np.array([0.05]), np.array([1 / np.pi])), 12)
     2e-05
     """
     whole = worn[np.isfinite(worn)]
-    return float(whole.sum() / max(len(whole), 1) / (FULL_TURN * width @ radius))
+    return float(whole.sum() / max(len(whole), 1) / (FULL_TURN * width @ radius) / blades)
 
 
 def mean_force(on_shares: NDArray[np.float64]) -> NDArray[np.float64]:

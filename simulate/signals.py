@@ -122,12 +122,12 @@ def amplitude(
     return spectra[..., np.abs(orders - k) <= width].max(axis=-1)
 
 
-def filled(values: NDArray[np.float64], rows: int, at_end: bool = False) -> NDArray[np.float64]:
+def filled[T: np.floating](values: NDArray[T], rows: int, at_end: bool = False) -> NDArray[T]:
     """The ``values`` (n, ...) with nan for the rows of revolutions that were not computed.
 
     These follow; or come before, where the values are ``at_end``.
     """
-    whole = np.full((rows, *values.shape[1:]), np.nan)
+    whole = np.full((rows, *values.shape[1:]), np.nan, values.dtype)
     whole[rows - len(values) if at_end else 0 :][: len(values)] = values
     return whole
 

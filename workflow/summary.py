@@ -86,7 +86,7 @@ PARTS = {  # of uncertainties, that may not be known
 # Values of a scene taken from its answers as they are.
 COPIED = (
     *("scene", "blade", "f1_Hz", "gap_m", "dofs", "status", "reasons", "ends", "swept", "free"),
-    *("checks", "model_error", "no_torque", "mu_crit", "sweep_s", "whirls"),
+    *("checks", "model_error", "no_torque", "mu_crit", "sweep_s", "whirls", "blades"),
 )
 
 COURSE = {  # of ``Course``: unit and its scale from SI
@@ -424,8 +424,9 @@ def about(scene: Mapping[str, Any]) -> str:
     why = "".join(f"; no contact: {reason}" for reason in scene["reasons"])
     off = scene["model_error"]["basis"]
     within = "" if off is None else f" (frequencies within {markdown.percent(off)} of the full one)"
+    blades = f"{scene['blades']} blades, numbers of the worst; " if scene["blades"] > 1 else ""
     return (
-        f"blade {scene['blade']}, f₁(0) = {scene['f1_Hz']:.2f} Hz, "
+        f"{blades}blade {scene['blade']}, f₁(0) = {scene['f1_Hz']:.2f} Hz, "
         f"gap {1e6 * scene['gap_m']:.3g} µm; reduced model: {scene['dofs']} DoFs{within}; "
         f"runs: {ends}{why}"
     )

@@ -28,29 +28,38 @@ type Observables = dict[str, NDArray[np.float64]]
 type Numbers = dict[str, float]
 
 
-def observables(run: Run, samples: int | None = None, rods: int | None = None) -> Observables:
+def observables(
+    run: Run, samples: int | None = None, rods: int | None = None, blade: int | None = None
+) -> Observables:
     """Records of a run, by name, at ``samples`` and ``rods`` per revolution (None: of the run).
 
     `spectrum` (bins,), m, without bin 0; `wear` (eighths, rods), m, mean over each eighth of the
     chord, linear between rods; `history` (time, places) and `states` (time, n), m; `force_peak`
-    (revolutions computed, eighths), N.
+    (revolutions computed, eighths), N. Of a stage spectrum and force of all blades, one after the
+    other, and history and states of one ``blade`` (None: the worst).
     """
-    record, outcome = run.scene.record, run.outcome
+    record, outcome, each = run.scene.record, run.outcome, run.outcome.each_blade
+    one = outcome if blade is None else each[blade]
     samples = samples or record.samples_per_round
     every = record.samples_per_round // samples
     thinned = slice(every - 1, None, every)  # the first lies a sample after the start
 
     readers = {
         # of the last revolutions; aliasing is the same where both runs are thinned alike
-        "spectrum": lambda: spectrum(
-            outcome.u_r[thinned][-record.rounds_of_spectrum * samples :, 0]
-        )[1:],
+        "spectrum": lambda: np.concatenate(
+            [
+                spectrum(of.u_r[thinned][-record.rounds_of_spectrum * samples :, 0])[1:]
+                for of in each
+            ]
+        ),
         "wear": lambda: on_rods(
             by_share(outcome.wear, outcome.ends), rods or outcome.wear.shape[1]
         ),
-        "history": lambda: outcome.u_r[thinned][:, 1:],
-        "force_peak": lambda: outcome.force_peak[: ceil(outcome.rounds)],
-        "states": lambda: outcome.states[thinned],
+        "history": lambda: one.u_r[thinned][:, 1:],
+        "force_peak": lambda: np.concatenate(
+            [of.force_peak[: ceil(outcome.rounds)] for of in each]
+        ),
+        "states": lambda: one.states[thinned],
     }
     return {name: readers[name]() for name in record.observables}
 
@@ -69,7 +78,15 @@ def differences(
         return dict.fromkeys(one.scene.record.observables, neither if ends[0] == ends[1] else inf)
     samples = min(run.scene.record.samples_per_round for run in (one, other))
     rods = max(run.outcome.wear.shape[1] for run in (one, other))
-    return relative_differences(*(observables(run, samples, rods) for run in (one, other)))
+    blade = next(
+        (
+            j
+            for j in (one.outcome.worst, other.outcome.worst)
+            if all(run.outcome.each_blade[j].recorded for run in (one, other))
+        ),
+        None,
+    )
+    return relative_differences(*(observables(run, samples, rods, blade) for run in (one, other)))
 
 
 def relative_differences(one: Observables, other: Observables) -> dict[str, float]:

@@ -7,7 +7,7 @@ import numpy as np
 
 from rom.model import Rom
 from simulate.errors.neighbour import Neighbour
-from simulate.marching import FinalState, Outcome, Setup, Worn, march, prepare
+from simulate.marching import AnyEnd, Outcome, Setup, march, prepare
 from simulate.scene import Scene
 
 
@@ -30,7 +30,7 @@ class Case:
     scene: Scene
     rom: Rom
     setup: Setup
-    start: FinalState | Worn | None = None  # start of the run
+    start: AnyEnd | None = None  # start of the run
 
     @property
     def steps_of_a_turn(self) -> int:
@@ -76,6 +76,8 @@ class Run(Case):
     def neighbour(self, other: Neighbour) -> Case:
         """As of a case, for as many revolutions as the run took."""
         scene = as_long(self.scene, self.outcome.rounds)
+        if scene.stage:  # whose worst blade may be another one
+            scene = scene.but(record={"blades": "all"})
         return Case(scene, self.rom, self.setup, self.start).neighbour(other)
 
     @property
@@ -88,4 +90,6 @@ class Run(Case):
         """Speed, status and why, whether it is steady, and wall time, for logs."""
         why = f" ({self.outcome.reason})" if self.outcome.reason else ""
         end = f"{self.outcome.status}{why}, {self.outcome.trend}"
-        return f"{self.setup.Omega:.6g} rad/s: {end}, {self.seconds:.2f} s"
+        blades = len(self.outcome.blades)
+        worst = f"blade {self.outcome.worst} of {blades}: " if blades else ""
+        return f"{self.setup.Omega:.6g} rad/s: {worst}{end}, {self.seconds:.2f} s"

@@ -194,8 +194,10 @@ QUANTITIES = (  # in the order of the columns
     Quantity(
         name="worn_per_pass",
         unit="m",
-        meaning="mean worn depth over the area that the tip sweeps, per whole revolution",
-        of=lambda run: worn_per_pass(run.outcome.each.worn, *run.strips),
+        meaning="mean worn depth over the area that the tip sweeps, per passage of a blade",
+        of=lambda run: worn_per_pass(
+            run.outcome.each.worn, *run.strips, len(run.outcome.each_blade)
+        ),
         peak=CONTACT,
         follows=True,
         head="worn µm per pass",

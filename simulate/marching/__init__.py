@@ -1,7 +1,9 @@
 """One run: modes, set-up, schemes, status."""
 
+from simulate.marching.course import Outcome
+from simulate.marching.ends import AnyEnd, EndOfStage, FinalState, Worn
 from simulate.marching.refusals import check_scene
-from simulate.marching.run import FinalState, Outcome, Worn, make_kernel, march
+from simulate.marching.run import make_kernel, march
 from simulate.marching.setup import (
     SceneError,
     Setup,

@@ -74,6 +74,8 @@ class Recorded(NamedTuple):
     # (samples, columns), coordinates of a casing that moves at every sample, from ``first`` on
     casing: NDArray[np.float64] = np.zeros((0, 0))
     first: int = 0
+    # (samples, shares), N: sum of t_N over the steps of the revolution so far, at every sample
+    pushed: NDArray[np.float64] = np.zeros((0, 0))
 
 
 @compiled
@@ -121,6 +123,7 @@ def march_free(scheme, strips, motion, energies, a_first, a_last, number, end, r
         now, last, before = before, now, last
         scheme.turn(scheme, motion, last)
         lost = predict(scheme, motion.x, motion.y, now, last, before)
+        scheme.reach(scheme, motion, now)
         if strips.touches or number == end:  # without a liner, where the bound is checked
             interface(scheme.Phi, motion.x, motion.u, now)
         if strips.touches:
@@ -178,6 +181,79 @@ def book_forces(strips, force, weights, forces):
         forces[2, s] += along
 
 
+@compiled
+def under_load(state):
+    """Whether rods under the tip store energy from before."""
+    loaded = np.bool_(False)
+    for i in range(state.covered.strips.size):
+        loaded |= state.covered.strips[i].stored > 0.0
+    return loaded
+
+
+@compiled
+def march_sample(
+    scheme,
+    strips,
+    state,
+    recorded,
+    ramp,
+    bound,
+    done,
+    steps,
+    round_turn,
+    number,
+    stop,
+    sample,
+    loaded,
+):
+    """March a blade from step ``number`` of a revolution to ``stop``, the end of a ``sample``.
+
+    Or within one, where ``sample`` is -1. ``ramp`` to ``steps``: as of ``march_round``;
+    ``round_turn``: turn of step 0; ``loaded``: whether rods were in the step before.
+
+    Returns
+    -------
+    contacts, number, loaded, end, strip
+        Steps with contact, the last step taken, whether rods are loaded then, and as of
+        ``march_round``.
+    """
+    motion, contacts, a_first, a_last = state.motion, 0, 0.0, 0.0
+    if strips.touches:
+        a_first, a_last = ramp.bounds(ramp.numbers, done + number / steps, done + stop / steps)
+        if not strips.tangential:
+            contact_free(strips, a_first, a_last, number, stop, motion.free)
+            strips.waves.lower(strips, a_first, a_last, number, stop, motion, FIRST)
+    while number < stop:
+        through = -1
+        number, lost, loaded = march_free(
+            scheme, strips, motion, state.energies, a_first, a_last, number, stop, round_turn,
+            loaded,
+        )  # fmt: skip
+        if loaded:
+            a = ramp.share(ramp.numbers, done + (number - 1 + strips.placed) / steps)
+            a_end = ramp.share(ramp.numbers, done + number / steps)
+            step = Step(number, a, a_end, *turns(round_turn, number))
+            loaded, lost, through = contact_step(scheme, strips, state, recorded, step, lost)
+            contacts += loaded
+        state.energies[DAMPING] += lost
+        if through >= 0:
+            return contacts, number, loaded, WORN_THROUGH, through
+    end = RUNNING
+    if sample >= 0:
+        now = turns(round_turn, number)[0]
+        observe(recorded.Phi, motion.x, now, recorded.samples[sample])
+        for s in range(recorded.pushed.shape[1]):
+            recorded.pushed[sample, s] = recorded.forces[1, s]
+        for k in range(recorded.casing.shape[1]):
+            recorded.casing[sample, k] = motion.x[now, recorded.first + k]
+        if len(recorded.states):
+            for k in range(motion.x.shape[1]):
+                recorded.states[sample, k] = motion.x[now, k]
+        if escaped(motion.u, now, strips.g0.size, bound):
+            end = ESCAPED
+    return contacts, number, loaded, end, 0
+
+
 @compiled_kernel
 def march_round(scheme, strips, state, recorded, ramp, bound, done, steps):
     """Compute one revolution of ``steps`` steps.
@@ -194,44 +270,16 @@ def march_round(scheme, strips, state, recorded, ramp, bound, done, steps):
         Steps with contact, steps taken, how the revolution ended, and the strip (from 0) that the
         tip came through where the liner is worn through.
     """
-    motion, samples = state.motion, recorded.samples
     recorded.forces[:] = 0.0
-    every = steps // len(samples)
-    contacts, number, loaded = 0, FIRST, np.bool_(False)
-    a_first = a_last = 0.0
-    for i in range(strips.g0.size):
-        loaded |= state.covered.strips[i].stored > 0.0
+    every, contacts, number, loaded = steps // len(recorded.samples), 0, FIRST, under_load(state)
     strips.waves.begin(strips, done * steps)
     round_turn = done * steps % TURNS  # turns go on where the last revolution left them
-    for sample in range(len(samples)):
-        end = number + every
-        if strips.touches:
-            a_first, a_last = ramp.bounds(ramp.numbers, done + number / steps, done + end / steps)
-            if not strips.tangential:
-                contact_free(strips, a_first, a_last, number, end, motion.free)
-                strips.waves.lower(strips, a_first, a_last, number, end, motion, FIRST)
-        while number < end:
-            through = -1
-            number, lost, loaded = march_free(
-                scheme, strips, motion, state.energies, a_first, a_last, number, end, round_turn,
-                loaded,
-            )  # fmt: skip
-            if loaded:
-                a = ramp.share(ramp.numbers, done + (number - 1 + strips.placed) / steps)
-                a_end = ramp.share(ramp.numbers, done + number / steps)
-                step = Step(number, a, a_end, *turns(round_turn, number))
-                loaded, lost, through = contact_step(scheme, strips, state, recorded, step, lost)
-                contacts += loaded
-            state.energies[DAMPING] += lost
-            if through >= 0:
-                return contacts, number, WORN_THROUGH, through
-        now = turns(round_turn, number)[0]
-        observe(recorded.Phi, motion.x, now, samples[sample])
-        for k in range(recorded.casing.shape[1]):
-            recorded.casing[sample, k] = motion.x[now, recorded.first + k]
-        if len(recorded.states):
-            for k in range(motion.x.shape[1]):
-                recorded.states[sample, k] = motion.x[now, k]
-        if escaped(motion.u, now, strips.g0.size, bound):
-            return contacts, number, ESCAPED, 0
+    for sample in range(len(recorded.samples)):
+        touched, number, loaded, end, strip = march_sample(
+            scheme, strips, state, recorded, ramp, bound, done, steps, round_turn, number,
+            number + every, sample, loaded,
+        )  # fmt: skip
+        contacts += touched
+        if end != RUNNING:
+            return contacts, number, end, strip
     return contacts, number, RUNNING, 0

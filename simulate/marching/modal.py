@@ -25,6 +25,11 @@ def takes_nothing(scheme, strips, state, step):
     """A rigid casing."""
 
 
+@compiled
+def stays(scheme, motion, now):
+    """A rigid casing."""
+
+
 class Scheme(NamedTuple):
     """Coefficients of a run as the kernel reads them.
 
@@ -48,7 +53,8 @@ class Scheme(NamedTuple):
     sliding: Any = None  # ``friction.Sliding`` where the tip slides with friction
     turn: Any = stands  # what the casing does before a step
     book: Any = takes_nothing  # and after it
-    turning: Any = None  # ``moving_casing.Turning`` where it moves
+    turning: Any = None  # ``moving_casing.Turning`` where it moves, ``common_casing.Lent``
+    reach: Any = stays  # where the other blades press it to in the step
 
 
 class Motion(NamedTuple):
@@ -92,9 +98,9 @@ def scheme_arrays(
 def at_rest(scheme: Scheme) -> Motion:
     """A blade that stands still, unloaded."""
     rows, n = scheme.Phi.shape
-    x, y, u = (_zeros((TURNS, size)) for size in (n, n, rows))
+    x, y, u = (zeros((TURNS, size)) for size in (n, n, rows))
     moved, force, free, came = (np.zeros(rows) for _ in range(4))
-    return Motion(x, y, u, moved, force, _zeros((n,)), free, came)
+    return Motion(x, y, u, moved, force, zeros((n,)), free, came)
 
 
 def rows_of(*rows: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -117,12 +123,12 @@ def padded_rows(Phi: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _padded(a: NDArray[np.float64]) -> NDArray[np.float64]:
-    padded = _zeros(tuple(length + -length % LANES for length in a.shape))
+    padded = zeros(tuple(length + -length % LANES for length in a.shape))
     padded[tuple(slice(length) for length in a.shape)] = a
     return padded
 
 
-def _zeros(shape: tuple[int, ...]) -> NDArray[np.float64]:
+def zeros(shape: tuple[int, ...]) -> NDArray[np.float64]:
     """Zeros that begin on a cache line: vectors across two lines cost the run a tenth."""
     size = int(np.prod(shape))
     room = np.zeros(size + LANES)

@@ -1,6 +1,6 @@
 """Refusals of a scene that does not fit its reduced model; those of its step are in ``setup``."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from math import ceil
 
 import numpy as np
@@ -13,8 +13,19 @@ from simulate.contact.gaps import given_gaps, growth_fault
 from simulate.contact.law_check import fault
 from simulate.contact.places import Places, mean_footprint, rods_in_footprint, strip_places
 from simulate.marching.moving_casing import LONGEST_FOOTPRINT
-from simulate.marching.setup import SceneError, edge_slope, least_gap
-from simulate.scene import Casing, Contact, Gaps, Liner, Profile, Scene, Speeds
+from simulate.marching.setup import SceneError, edge_slope, least_gap, longer_fault
+from simulate.scene import (
+    LEADING,
+    Casing,
+    Contact,
+    Gaps,
+    Liner,
+    Profile,
+    Record,
+    Scene,
+    Speeds,
+    Stage,
+)
 from simulate.scene.laws import LAWS
 from simulate.scene.own_laws import Unread
 
@@ -39,13 +50,14 @@ def check_scene(scene: Scene, rom: Rom) -> None:
     outgrown = growth_fault(scene.gaps, rom, places.xi, allowed)
     has_gaps = not (scene.gaps.vary and (too_fast or outgrown))
     faults = [  # in the order of their lines
-        *_model(scene.blade, scene.contact, [*scene.record.grids], directions, rom),
+        *_model(scene.blade, scene.contact, scene.record, directions, rom),
         *too_fast,
         *_slope(casing, rom, places.slope),
         *_liner(liner, rom.camber[:, 0], mean_footprint(liner, rom)),
         *_strips(liner, rom),
         *_gaps(scene.gaps, rom),
         *outgrown,
+        *(_longer(scene.stage, scene.gaps, rom, liner.m, allowed) if has_gaps else ()),
         *(_edge(scene.gaps, liner, scene.contact.profile, rom, speeds) if has_gaps else ()),
         *_moving(casing, places, rom.across, speeds.max()),
     ]
@@ -75,9 +87,10 @@ def require_sweep(blade: str, design: str | None, accuracy: float | None) -> Non
 
 
 def _model(
-    blade: str, contact: Contact, gauges: list[str], directions: str, rom: Rom
+    blade: str, contact: Contact, record: Record, directions: str, rom: Rom
 ) -> Iterator[Fault]:
-    """A reduced model of another blade, or without the directions of the contact, or gauges."""
+    """A reduced model of another blade, or without the directions of a key, or gauges."""
+    gauges = [*record.grids]
     if rom.provenance.blade != blade:
         yield Fault(
             f"the reduced model is of blade {rom.provenance.blade!r}; take "
@@ -94,6 +107,16 @@ def _model(
             f"`./run snakemake results/{rom.provenance.blade}/rom-{directions}.nc`",
             f"contact.{'tangential' if friction is None else 'friction'}",
             True if friction is None else friction,
+        )
+    if missing := [
+        DIRECTIONS[to] for to in record.directions if DIRECTIONS[to] not in rom.directions
+    ]:
+        yield Fault(
+            f"the reduced model has no {' and '.join(missing)} interface DoFs; take "
+            f"rom-{directions}.nc: `./run snakemake results/{rom.provenance.blade}/"
+            f"rom-{directions}.nc`",
+            "record.history.directions",
+            record.directions,
         )
     if gauges and gauges != [*rom.gauges]:
         yield Fault(
@@ -242,6 +265,16 @@ def _gaps(of: Gaps, rom: Rom) -> Iterator[Fault]:
             f"xi = 1/16 and 15/16 may differ by a factor of 15 at most",
             "clearance",
         )
+
+
+def _longer(
+    stage: Stage | None, of: Gaps, rom: Rom, strips: int, speeds: NDArray[np.float64]
+) -> Sequence[Fault]:
+    """A blade of a stage that is longer than its gap at one of the ``speeds``, rad/s."""
+    if stage is None:
+        return ()
+    longer = stage.longer(float(given_gaps(of, rom, LEADING)))
+    return longer_fault(longer, least_gap(of, rom, strips, speeds))
 
 
 def _moving(casing: Casing, places: Places, across: int, highest: float) -> Iterator[Fault]:

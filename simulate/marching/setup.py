@@ -1,8 +1,8 @@
 """Set-up of one run: its arrays and numbers, and refusals of its step."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import ceil, radians
 from typing import NamedTuple
 
@@ -10,7 +10,7 @@ import numpy as np
 from numba.core import errors
 from numpy.typing import NDArray
 
-from geometry.base import UserError, known
+from geometry.base import Fault, UserError, known
 from geometry.tip import EDGES, JUDGED
 from rom.model import Rom
 from rom.polynomial import evaluate
@@ -27,12 +27,14 @@ from simulate.contact.rod_law import RodLaw, rod_law
 from simulate.contact.strips import Strips, Tip, largest_over_window
 from simulate.contact.travelling import STANDING, Waves, waves
 from simulate.marching import central_difference, piecewise_exact
+from simulate.marching.common_casing import Lent, lending, lent_columns
+from simulate.marching.disk import leg_of
 from simulate.marching.friction import Modes, sliding, steps_with_one_solution
 from simulate.marching.modal import LANES, Scheme, rows_of
 from simulate.marching.moving_casing import Moving, moving_casing
 from simulate.marching.piecewise_exact import gain, share_of_end
 from simulate.marching.stability import step_limit
-from simulate.scene import LEADING, Casing, Contact, Gaps, Liner, Profile, Scene
+from simulate.scene import LEADING, Casing, Contact, Gaps, Liner, Profile, Scene, Stage
 from simulate.scene.law import Law
 from simulate.scene.laws import LAWS
 from simulate.scene.scene import Integrator
@@ -46,6 +48,18 @@ MAX_STEPS = 10**9  # per revolution, minutes of computing
 
 class SceneError(UserError):
     """A scene that does not fit the reduced model or the scheme: key, value, allowed range."""
+
+
+@dataclass(frozen=True)
+class Blades:
+    """What differs from blade to blade of a stage of N."""
+
+    longer: NDArray[np.float64]  # (N,), m, by which each is longer
+    omega: NDArray[np.float64]  # (N, n), rad/s, natural frequencies
+    schemes: list[Scheme]  # each once
+    which: NDArray[np.int64]  # (N,), scheme of each
+    leg: int  # steps, as of ``disk``
+    lent: Lent  # columns of a casing that moves
 
 
 @dataclass(frozen=True)
@@ -65,6 +79,8 @@ class Setup:
     Phi_out: NDArray[np.float64]
     edges: tuple[float, ...]  # xi of the first of them: 1/16; where the casing tapers 15/16 too
     Phi_timing: NDArray[np.float64]  # (2, n), u_t at both edges there; else (0, n)
+    # (directions * places, n), displacements of a history in its directions; else (0, n)
+    Phi_history: NDArray[np.float64]
     Phi_gauges: NDArray[np.float64]  # (2 gauges, n): strain along gauges, 1, then stress, Pa
     places: Places
     strips: Strips
@@ -76,6 +92,24 @@ class Setup:
     moving: Moving  # modes of the casing; none if it is rigid
     ramp: Ramp
     law: Law
+    stage: Blades | None = None  # several blades, of which the above is one of no changes
+
+    def of_blade(self, j: int) -> "Setup":
+        """That of blade ``j`` of a stage."""
+        stage, strips = known(self.stage, "stage"), self.strips
+        nu, blades = strips.d.size, len(stage.which)
+        strips = strips._replace(
+            g0=strips.g0 - stage.longer[j], first=(strips.first + j * nu / blades) % nu
+        )
+        scheme = stage.schemes[stage.which[j]]
+        return replace(self, strips=strips, omega=stage.omega[j], blade=scheme, stage=None)
+
+    @property
+    def blades(self) -> list["Setup"]:
+        """Those of all blades; of one without a stage itself."""
+        if self.stage is None:
+            return [self]
+        return [self.of_blade(j) for j in range(len(self.stage.which))]
 
 
 def least_gap(of: Gaps, rom: Rom, strips: int, speeds: Iterable[float]) -> float:
@@ -105,26 +139,35 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
     Phi_t = rom.rows(places.xi, "t") @ Phi if contact.along else Phi[:0]
     Phi_lean = closing_rows(rom, casing, places.xi, leans) @ Phi if leans else Phi[:0]
     along = Phi_t if contact.tangential else Phi[:0]  # with friction as without
-    limit = _limit(stiffness, contact, zeta, omega, (Phi_b, along, Phi_lean), places.footprint)
+    shares = scene.stage.relative if scene.stage else np.zeros(1)
+    fastest = (1 + shares.max()) * omega
+    limit = _limit(stiffness, contact, zeta, fastest, (Phi_b, along, Phi_lean), places.footprint)
     steps = steps or _steps_per_round(integrator, scene.record.samples_per_round, Omega, limit)
     h = 2 * np.pi / Omega / steps
     moving = moving_casing(casing.moves, places, contact.along, leans)
     (closing, tangential, lean), marched, damped = moving.beside(
         (Phi_b, Phi_t, Phi_lean), omega, zeta
     )
+
+    def own(share: float) -> NDArray[np.float64]:
+        """Frequencies of a blade that differ by a ``share``, and those of the casing, rad/s."""
+        return np.concatenate([(1 + share) * omega, marched[omega.size :]])
+
     if (mu := contact.friction) is not None:
-        modes = sliding_modes(marched, closing, tangential, places)
-        modes, of_rows = with_lean(modes, stiffness, lean)
-        _require_one_solution(modes, mu, damped, h, steps, of_rows)
+        for share in {shares.min(), shares.max()}:
+            modes = sliding_modes(own(share), closing, tangential, places)
+            modes, of_rows = with_lean(modes, stiffness, lean)
+            _require_one_solution(modes, mu, damped, h, steps, of_rows)
     pushed = _pushed(mu, closing, tangential, places)
     if leans:  # an edge moves by the lean, too
         pushed = pushed + INERTIA * lean**2
     compliance = np.maximum(pushed @ gain(marched, damped, h), 0)
     if faults := growth_fault(gaps, rom, places.xi, np.array([Omega])):
         raise SceneError(*faults)
+    gap = float(given_gaps(gaps, rom, LEADING))
     strips = strips_under(
         liner,
-        distortion(casing, liner.nu, float(given_gaps(gaps, rom, LEADING)), h),
+        distortion(casing, liner.nu, gap, h),
         contact,
         places,
         g0=gaps_at(gaps, rom, places.xi, Omega),
@@ -137,15 +180,24 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
     strips = strips._replace(waves=moving.under(strips.waves))
     _check_start(casing, strips)
     rows = rows_of(closing, tangential, lean)
-    blade = SCHEMES[integrator.scheme].coefficients(marched, rows, damped, h)
-    blade = moving.turned(blade, omega.size, Omega * h)
-    if mu is not None:
-        blade = sliding(blade, strips.first_t, mu * places.secant, stiffness)
+
+    def scheme_at(share: float, lent: Lent | None = None) -> Scheme:
+        """Scheme of a blade whose frequencies differ by a ``share``."""
+        scheme = SCHEMES[integrator.scheme].coefficients(own(share), rows, damped, h)
+        if lent is None:
+            scheme = moving.turned(scheme, omega.size, Omega * h)
+        elif moving.order.size:
+            scheme = lending(scheme, omega.size, lent)
+        if mu is None:
+            return scheme
+        return sliding(scheme, strips.first_t, mu * places.secant, stiffness)
+
     tapers = places.slope.any()
     edges = EDGES if tapers else EDGES[:1]
     judged = JUDGED if scene.record.spectrum_rounds else edges
-    outputs = np.array([*judged, *scene.record.chord])
-    return Setup(
+    chord = scene.record.chord
+    outputs = np.array([*judged, *chord])
+    setup = Setup(
         Omega=Omega,
         h=h,
         steps=steps,
@@ -158,6 +210,9 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
         Phi_out=closing_rows(rom, casing, outputs) @ Phi,
         edges=edges,
         Phi_timing=rom.timing_rows @ Phi if tapers else Phi[:0],
+        Phi_history=np.vstack(
+            [Phi[:0], *(rom.rows(np.array(chord), to) @ Phi for to in scene.record.directions)]
+        ),
         Phi_gauges=evaluate(rom.gauge_rows, Omega)[..., 1:].reshape(-1, rom.n) @ Phi
         if rom.gauges and scene.record.gauges  # companions have none
         else Phi[:0],
@@ -166,11 +221,75 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
         bound=LARGEST_DISPLACEMENT * rom.span,
         damping_ratio=zeta,
         scheme=integrator.scheme,
-        blade=blade,
+        blade=scheme_at(0.0),
         moving=moving,
         ramp=ramp_of(casing),
         law=liner.law,
     )
+    if scene.stage is None:
+        return setup
+    return _with_stage(setup, scene.stage, casing, gap, scene.record.samples_per_round, scheme_at)
+
+
+def _with_stage(
+    setup: Setup,
+    stage: Stage,
+    casing: Casing,
+    gap: float,
+    samples: int,
+    scheme_at: Callable[[float, Lent], Scheme],
+) -> Setup:
+    """The ``setup`` of one blade with what differs from blade to blade of a ``stage``.
+
+    ``gap`` at xi = 1/16, m; ``samples`` per revolution; ``scheme_at``: by share of the frequencies
+    and columns lent.
+
+    Raises
+    ------
+    SceneError
+        When one is longer than its gap, or two touch the same rods in one step.
+    """
+    strips, steps = setup.strips, setup.steps
+    if faults := longer_fault(longer := stage.longer(gap), float(strips.g0.min())):
+        raise SceneError(*faults)
+    if not (leg := leg_of(strips, stage.count, steps, samples, setup.bound)):
+        raise SceneError(
+            f"two of them are over the same rods in one step, of {strips.d.size} around the "
+            "casing: allowed are fewer, or more steps per revolution and rods",
+            key="stage.count",
+            value=stage.count,
+        )
+    shares, which = np.unique(stage.relative, return_inverse=True)
+    lent = lent_columns(setup.moving, setup.blade, setup.omega.size)
+    made = replace(
+        setup,
+        stage=Blades(
+            longer=longer,
+            omega=(1 + stage.relative)[:, None] * setup.omega,
+            schemes=[scheme_at(float(share), lent) for share in shares],
+            which=which,
+            leg=1 if setup.moving.order.size else leg,
+            lent=lent,
+        ),
+    )
+    for blade in made.blades:
+        _check_start(casing, blade.strips)
+    return made
+
+
+def longer_fault(longer: NDArray[np.float64], gap: float) -> list[Fault]:
+    """The fault of a blade that is ``longer`` (N,), m, than the least ``gap``, m; or none."""
+    j = int(longer.argmax())
+    if longer[j] <= gap:
+        return []
+    return [
+        Fault(
+            f"blade {j} is longer by {1e6 * longer[j]:.4g} um, the smallest gap is "
+            f"{1e6 * gap:.4g} um: contact before the casing distorts; allowed up to that",
+            "stage.longer_um",
+            allowed={"le": 1e6 * gap},
+        )
+    ]
 
 
 def sliding_modes(

@@ -21,6 +21,8 @@ STATUSES = (
     "unstable",
     "no-contact",
 )
+# of a march, from the least on: the worst blade of a stage is that of the last of them
+SEVERITY = ("no-contact", "ok", "inaccurate", "diverged", "unstable", "liner-exhausted")
 # statuses of the runs whose numbers are results; without contact, those of a blade at rest
 WITH_RESULT = ("ok", "sensitive", "no-contact")
 TO_THE_END = (*WITH_RESULT, "inaccurate")  # of those that can be compared

@@ -28,6 +28,7 @@ from simulate.scene.scene import (
     fault_of_blade,
 )
 from simulate.scene.speeds import OF_RPM, OVER_F1, Speeds
+from simulate.scene.stage import Stage
 from simulate.scene.verify import EVERY, PEAKS
 
 __all__ = [
@@ -58,6 +59,7 @@ __all__ = [
     "Record",
     "Scene",
     "Speeds",
+    "Stage",
     "fault_of_blade",
     "side_bands",
 ]

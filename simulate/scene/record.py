@@ -1,6 +1,7 @@
 """Outputs of a scene, and the peaks around which speeds are added."""
 
-from typing import Annotated, ClassVar
+from collections.abc import Collection, Sequence
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
@@ -13,12 +14,22 @@ ROSETTE = (0, 45, 90)  # deg, of its grids from the first, anticlockwise seen fr
 
 
 class History(Settings):
-    """Radial displacement over time, at every sample."""
+    """Displacement and force over time, at every sample."""
 
     replaced: ClassVar = {"nodes": "give chord, places as chord fractions: node 1 of 8 was 0.0625"}
 
     chord: list[Annotated[float, Field(ge=0, le=1)]] = Field(
         min_length=1, description="Places as chord fractions, 0 at the leading edge"
+    )
+    directions: Literal["rt", "rtz"] | None = Field(
+        default=None,
+        description="Displacements along the radius, around (in the sense of rotation) and along "
+        "the axis (downstream), each of its own; by default what closes the gap alone",
+    )
+    force: bool = Field(
+        default=False,
+        description="Contact force on the eighth of the chord around each place, mean from sample "
+        "to sample",
     )
 
 
@@ -63,6 +74,9 @@ class Record(Settings):
         description="Reduced displacements of all DoFs, over this number of last revolutions",
     )
     wear: bool = Field(default=True, description="Worn depth of every rod at the end")
+    wear_by_round: bool = Field(
+        default=False, description="Worn depth of each eighth of the chord after every revolution"
+    )
     history: History | None = Field(default=None, description="Displacement over time")
     contact_force: bool = Field(
         default=False,
@@ -77,12 +91,27 @@ class Record(Settings):
         "period of this natural mode, and at instants of those that strain the blade most; and the "
         "range of u_r at xi = 1/16 in sixteenths of each revolution",
     )
+    blades: list[Annotated[int, Field(ge=0)]] | Literal["worst", "all"] = Field(
+        default="worst",
+        description="Of a stage: blades whose records over time and forces are kept beside those "
+        "of the worst, by their numbers from 0, or `all`",
+    )
     gauges: list[Gauge] | None = Field(
         default=None,
         min_length=1,
         description="Strain gauges: strain and stress over the revolutions of the spectrum, else "
         "over the last",
     )
+
+    def of_blades(self, count: int, worst: int) -> Collection[int]:
+        """Blades of ``count`` whose records are kept."""
+        return {worst, *self.listed(count)}
+
+    def listed(self, count: int) -> Sequence[int]:
+        """Those of ``count`` that the scene names."""
+        if isinstance(self.blades, str):
+            return range(count) if self.blades == "all" else ()
+        return self.blades
 
     def rounds_of_u_r(self, rounds: int) -> int:
         """Last revolutions, of all ``rounds``, whose displacements are kept."""
@@ -107,6 +136,16 @@ class Record(Settings):
     def chord(self) -> list[float]:
         """Chord fractions of the history; empty without it."""
         return self.history.chord if self.history else []
+
+    @property
+    def forces(self) -> bool:
+        """Whether forces on eighths of the chord are kept."""
+        return self.contact_force or bool(self.history and self.history.force)
+
+    @property
+    def directions(self) -> str:
+        """Directions of the history; empty where what closes the gap is kept alone."""
+        return (self.history.directions or "") if self.history else ""
 
     @property
     def grids(self) -> dict[str, tuple[Gauge, int]]:

@@ -21,6 +21,7 @@ from simulate.scene.casing import MOST_ROUNDS, Casing, Clearance, Gaps
 from simulate.scene.liner import Contact, Liner
 from simulate.scene.record import Peaks, Record
 from simulate.scene.speeds import Positive, Speeds
+from simulate.scene.stage import Stage
 from simulate.scene.verify import EVERY, PEAKS, Share, Verify, in_place_of_old
 
 StepsPerRound = Annotated[int, Field(ge=64, le=10**9)]
@@ -147,6 +148,9 @@ class Scene(SettingsFile):
     casing: Casing = Field(description="Casing distortion")
     liner: Liner = Field(description="Abradable liner")
     contact: Contact = Field(default=Contact(), description="Tip profile and tangential force")
+    stage: Stage | None = Field(
+        default=None, description="Several blades over the liner; by default one"
+    )
     record: Record = Field(default=Record(), description="Outputs")
     peaks: Peaks | None = Field(default=None, description="Peaks around which speeds are added")
     start: Start | None = Field(
@@ -237,8 +241,8 @@ class Scene(SettingsFile):
 
         A model of a blade whose tip tapers has axial ones as well.
         """
-        own = self.casing.slope or self.casing.line
-        return "rtz" if own else "rt" if self.contact.along else "r"
+        own, asked = self.casing.slope or self.casing.line, self.record.directions
+        return "rtz" if own else asked or ("rt" if self.contact.along else "r")
 
     @property
     def gaps(self) -> Gaps:
@@ -395,9 +399,11 @@ class Scene(SettingsFile):
         )
 
     @checked
-    def _record_fits_steps_and_rounds(self) -> None:
+    def _record_fits_steps_rounds_and_blades(self) -> None:
         samples = self.record.samples_per_round
         steps = self.integrator.steps_per_round if self.integrator else None
+        blades, count = self.record.blades, self.stage.count if self.stage else 1
+        last = max(self.record.listed(count), default=0)
         rounds = {
             key: getattr(self.record, key) or 0 for key in ("spectrum_rounds", "states_rounds")
         }
@@ -422,6 +428,19 @@ class Scene(SettingsFile):
                     ),
                 )
                 for key, asked in rounds.items()
+            ),
+            (
+                self.stage or blades == "worst",
+                Fault("names blades of a stage: give stage, or take it out", "record.blades"),
+            ),
+            (
+                last < count,
+                Fault(
+                    f"names blade {last} of {count}, which are numbered from 0",
+                    "record.blades",
+                    blades,
+                    {"le": count - 1},
+                ),
             ),
             kind=SettingsError,
         )

@@ -74,6 +74,22 @@ def rows_from_csv(model: type[Settings]) -> BeforeValidator:
     return _of_file(of_rows)
 
 
+def column_from_csv(names: Columns) -> BeforeValidator:
+    """Reads a list of numbers from a CSV file of one column, one of ``names``."""
+
+    def of_column(lines: Lines) -> list[float]:
+        """Its numbers, in the unit of the key."""
+        (at, header), *rows = lines or [(1, [])]
+        if len(header) != 1 or header[0] not in names:
+            raise ValueError(
+                f"line {at}: columns {shown(', '.join(header))}: should be {' or '.join(names)}"
+            )
+        _, unit = names[header[0]]
+        return [unit * numbers(cells, header, line)[0] for line, cells in rows]
+
+    return _of_file(of_column)
+
+
 def _of_file(of_lines: Callable[[Lines], Any]) -> BeforeValidator:
     """Reads what the lines of the CSV file at a path hold; leaves other values unchanged."""
 

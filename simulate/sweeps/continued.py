@@ -7,7 +7,7 @@ import xarray as xr
 
 from geometry.base import Fault, require
 from rom.model import Rom
-from simulate.marching import WITH_RESULT, FinalState, SceneError, Worn
+from simulate.marching import WITH_RESULT, AnyEnd, SceneError, Worn
 from simulate.scene.own_laws import Unread
 from simulate.scene.scene import Scene, Start
 from simulate.sweeps.dataset import final_state_of, require_rom, scene_of
@@ -17,7 +17,7 @@ SAME_SPEED = 1e-9  # relative
 MAY_DIFFER = {"speeds", "rounds", "until", "record", "peaks", "verify", "start"}
 OF_LINER = ("strips", "rods_per_round", "thickness_mm")  # keys that a worn liner must have alike
 
-type Before = Callable[[float], FinalState | Worn | None]  # start of the run at a speed, rad/s
+type Before = Callable[[float], AnyEnd | None]  # start of the run at a speed, rad/s
 
 
 def before(scene: Scene, rom: Rom, runs: xr.Dataset | None) -> Before:
@@ -58,7 +58,7 @@ def before(scene: Scene, rom: Rom, runs: xr.Dataset | None) -> Before:
     if faults := _differences(scene, start, ran):
         raise SceneError(*faults)
 
-    def at(Omega: float) -> FinalState | Worn:
+    def at(Omega: float) -> AnyEnd:
         """Start of the run at a speed, rad/s."""
         given = start.speed_over_f1
         run = _run_at(runs, Omega / rom.omega1 if given is None else given, start.scene)

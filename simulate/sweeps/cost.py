@@ -19,7 +19,7 @@ from geometry.base import WARNING, duration, failed, memory_of_machine
 from geometry.tip import JUDGED
 from rom.model import Rom
 from simulate.contact.gaps import gaps_at, given_gaps
-from simulate.contact.places import mean_footprint, rods_in_footprint, strip_xi
+from simulate.contact.places import SHARES, mean_footprint, rods_in_footprint, strip_xi
 from simulate.errors.neighbour import Neighbour
 from simulate.errors.neighbours import HALF, QUARTER, TWIN
 from simulate.marching import prepare
@@ -144,7 +144,8 @@ def cost(scene: Scene, rom: Rom | None, speeds: int | None = None) -> Cost:
     second_runs = [TWIN] * scene.twins + [HALF, QUARTER] * scene.halves
     each = 1 + sum(run.cost for run in second_runs)
     runs = (speeds + added) * each + _checks(scene.verify == PEAKS, scene.checked_share, speeds)
-    all_steps = runs * scene.rounds * steps
+    blades = scene.stage.count if scene.stage else 1
+    all_steps = runs * scene.rounds * steps * blades
     columns = sizes.n + sum(1 + (mode.order > 0) for mode in scene.casing.moves)
     entries = columns * liner.m * (sizes.across + scene.contact.along)
     passed = ceil(liner.nu / steps)
@@ -162,9 +163,9 @@ def cost(scene: Scene, rom: Rom | None, speeds: int | None = None) -> Cost:
         runs_at_speeds=speeds * each,
         runs=runs,
         all_steps=all_steps,
-        seconds=all_steps * (STEP + MODE_ROW * entries + contact) + RUN * runs,
+        seconds=all_steps * (STEP + MODE_ROW * entries + contact) + RUN * runs * blades,
         memory=START
-        + HELD * _held(speeds + added, scene.record, scene.liner, scene.rounds, sizes.n),
+        + HELD * _held(speeds + added, scene.record, scene.liner, scene.rounds, sizes.n, blades),
     )
 
 
@@ -215,18 +216,26 @@ def _in_contact(scheme: str, rods: float, entries: float, touching: NDArray[np.f
     return float(each.mean())
 
 
-def _held(speeds: int, record: Record, liner: Liner, rounds: int, n: int) -> float:
-    """Bytes of the results of all speeds with their casings, and of a run in progress."""
+def _held(speeds: int, record: Record, liner: Liner, rounds: int, n: int, blades: int) -> float:
+    """Bytes of the results of all speeds with their casings, and of a run in progress.
+
+    Of so many ``blades``, whose records over time are held for those that are kept alone.
+    """
     samples, rods = record.samples_per_round, liner.m * liner.nu
+    kept, spectrum = max(len(record.listed(blades)), 1), record.rounds_of_spectrum * samples
     held = (
         DOUBLE * 2 * liner.nu
         + SINGLE * rods * record.wear
         + SINGLE * (record.spectrum_rounds or 0) * samples / 2
-        + DOUBLE * rounds * samples * len(record.chord)
-        + DOUBLE * ((record.states_rounds or 0) * samples * n + n**2)
-        + SINGLE * record.rounds_of_spectrum * samples * len(record.grids)
+        + DOUBLE * n**2
+        + DOUBLE * kept * rounds * samples * (1 + len(record.directions)) * len(record.chord)
+        + DOUBLE * kept * (record.states_rounds or 0) * samples * n
+        + SINGLE * kept * spectrum * len(record.grids)
+        + SINGLE * (blades - 1) * spectrum
+        + SINGLE * record.wear_by_round * rounds * SHARES * liner.nu
     )
     judged = len(JUDGED) if record.spectrum_rounds else 1
-    u_r = record.rounds_of_u_r(rounds) * samples * (judged + len(record.chord))
-    marched = DOUBLE * (2 * rods + u_r + 2 * record.rounds_of_states * samples * n)
+    places = judged + (1 + len(record.directions)) * len(record.chord)
+    u_r = record.rounds_of_u_r(rounds) * samples * places
+    marched = DOUBLE * (2 * rods + blades * (u_r + 2 * record.rounds_of_states * samples * n))
     return speeds * held + marched

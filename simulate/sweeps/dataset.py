@@ -3,7 +3,7 @@
 import json
 from collections import Counter
 from collections.abc import Collection, Hashable, Iterable, Mapping, Sequence, Set
-from dataclasses import asdict, fields
+from dataclasses import asdict, fields, replace
 from datetime import UTC, datetime
 from itertools import chain
 from math import ceil
@@ -38,7 +38,7 @@ from simulate.errors.observables import last_spectrum
 from simulate.errors.run import Run
 from simulate.errors.schema import of_runs
 from simulate.loads import torque_of_rounds
-from simulate.marching import STATUSES, WITH_RESULT, FinalState, strip_stiffness
+from simulate.marching import STATUSES, WITH_RESULT, EndOfStage, FinalState, strip_stiffness
 from simulate.marching.friction import growth_rate, mu_crit
 from simulate.marching.setup import sliding_modes, with_lean
 from simulate.marching.states import every
@@ -46,7 +46,7 @@ from simulate.marching.trend import further
 from simulate.scene import GROWING, LEADING, OF_LAST_ROUNDS, Scene
 from simulate.scene.laws.table import Tabulated
 from simulate.scene.own_laws import of_result
-from simulate.signals import filled, lines
+from simulate.signals import filled, lines, spectrum
 from simulate.sweeps.result_types import Course
 
 type Entry = tuple[str | tuple[str, ...], Any, dict[str, Any]]
@@ -131,10 +131,25 @@ VARIABLES = {  # of each run: dimensions beside the speed, unit, meaning
         "radial amplitude of a mode of the casing, anywhere around it, in the frame of the casing, "
         "over the revolutions of the spectrum",
     ),
+    "wear_by_round": (
+        "round share theta",
+        "m",
+        "worn depth after a revolution, mean over an eighth of the chord",
+    ),
     "history": (
         "chord history_time",
         "m",
         "u_r at chord fractions {record.chord}, {record.samples_per_round} samples a revolution",
+    ),
+    "history_u": (
+        "direction chord history_time",
+        "m",
+        "displacement along the radius, around in the sense of rotation, and along the axis",
+    ),
+    "history_force": (
+        "chord history_time",
+        "N",
+        "t_N on the eighth of the chord around the place, mean since the sample before",
     ),
     "states": ("time dof", "m", "reduced displacements u"),
     "force_peak": ("round share", "N", "largest t_N on an eighth of the chord"),
@@ -154,6 +169,24 @@ VARIABLES = {  # of each run: dimensions beside the speed, unit, meaning
     "gauge_strain_static": ("gauge", "1", "strain of rotation along a gauge; total: their sum"),
     "gauge_stress_static": ("gauge", "Pa", "stress of rotation along a gauge; total: their sum"),
     "envelope": ("window bound", "m", f"range of u_r at xi = 1/16 in each 1/{WINDOWS} revolution"),
+    "worst": ("", "1", "number of the worst blade, of which are the numbers that name no blade"),
+    "blade_status": ("blade", "1", "how a blade came to its end"),
+    "blade_rounds": ("blade", "1", "revolutions computed of a blade"),
+    "blade_displacement": ("blade", "m", "largest |u_r| of a blade at xi = 1/16"),
+    "blade_contact_share": ("blade", "1", "steps with contact of a blade over all steps"),
+    "blade_trend": ("blade", "1", "whether the motion of a blade is steady at the end"),
+    "blade_extremes": ("blade round bound", "m", "range of u_r of a blade at xi = 1/16"),
+    "blade_ledger": (
+        "blade energy",
+        "J",
+        "energies of a blade; those of the casing's own are in `ledger`, of all blades",
+    ),
+    "blade_along": (
+        "blade order",
+        "m",
+        "amplitude of u_r of a blade at xi = 1/16 along engine orders, over the revolutions of the "
+        "spectrum",
+    ),
     "departure": (
         "observable",
         "1",
@@ -178,6 +211,11 @@ COORDINATES = {  # dimensions, unit, meaning
     "history_time": ("history_time", "1", "revolutions since the start"),
     "time": ("time", "1", "revolutions since {since}"),
     "edge": ("edge", "1", "chord fraction of the edge"),
+    "direction": ("direction", "", "direction of a displacement"),
+    "longer": ("blade", "m", "by how much a blade is longer, which its gaps lose"),
+    "frequency": ("blade", "1", "relative change of the natural frequencies of a blade"),
+    "blade": ("blade", "1", "number of the blade, in the sense of rotation"),
+    "recorded": ("recorded", "1", "number of a blade whose records are kept"),
     "P": ("strip dof", "1", "u_r - s u_z = P states, s the slope of the casing"),
     "round": ("round", "1", "number of the revolution"),
     "share": ("share", "1", "middle of the eighth of the chord"),
@@ -189,6 +227,10 @@ COORDINATES = {  # dimensions, unit, meaning
     "energy": ("energy", "", ENERGIES + "{terms}{of_casing}{of_friction}"),
     "observable": ("observable", "", ""),
 }
+OVER_TIME = (  # records of each blade that a scene names
+    *("history", "history_u", "history_force", "states", "motion", "strained"),
+    *("force_peak", "force_mean", "force_tangential_mean", "gauge_strain", "gauge_stress"),
+)
 GAP_OF_SPEED = (SPEED, "strip"), "m", "gap at the speed"  # another at each
 OF_MOTION = ("motion", "strained")  # what pictures and stresses are made of, most of a file
 ALWAYS = ("status", "f1", "step", "contact_share", "ledger", SPEED, "speed", "xi", "width", "gap")
@@ -214,6 +256,11 @@ OF_FINAL_STATE = {  # dimensions of each field of ``FinalState`` that is an arra
     "stored": ("strip", "end_rod"),
     "under": ("end_strip_field", "strip"),
     "solver": ("end_solver_field", "strip"),
+}
+OF_STAGE = {  # and of ``EndOfStage``
+    "casing_x": ("end_step", "end_column"),
+    "casing_y": ("end_step", "end_column"),
+    "pulled": ("blade", "end_column"),
 }
 DIMS = {  # of the variables that every sweep has, or records: numbers in every run with a result
     name: (SPEED, *VARIABLES[name][0].split())
@@ -436,6 +483,7 @@ def of_run(run: Run) -> xr.Dataset:
     for name, by_name in {"departure": run.departures, "error": run.errors}.items():
         if by_observable := by_name or unknown:
             values |= {name: [*by_observable.values()], "observable": [*by_observable]}
+    values |= _of_stage(run) if scene.stage else {}
     final = scene.record.end and run.outcome.final
     moves, slides = bool(scene.casing.moves), scene.contact.friction is not None
     said = {
@@ -460,21 +508,87 @@ def of_run(run: Run) -> xr.Dataset:
         for name, (dims, units, meaning) in VARIABLES.items()
         if name in values
     }
+    if listed := scene.record.listed(len(run.outcome.blades)):
+        coords["recorded"] = entry(("recorded",), [*listed], *COORDINATES["recorded"][1:])
+        variables |= _of_recorded(run, listed, said)
     return xr.Dataset(variables, coords).assign(of_final_state(final) if final else {})
 
 
-def of_final_state(final: FinalState) -> dict[str, tuple]:
+def _of_stage(run: Run) -> dict[str, Any]:
+    """Numbers of each blade of a stage."""
+    outcome, scene, stage = run.outcome, run.scene, known(run.scene.stage, "stage")
+    blades, energies = outcome.blades, _energies(run)["energy"]
+    gap = float(given_gaps(scene.gaps, run.rom, LEADING))
+    values = {
+        "worst": outcome.worst,
+        "blade": np.arange(stage.count),
+        "longer": stage.longer(gap),
+        "frequency": stage.relative,
+        "blade_status": [blade.status for blade in blades],
+        "blade_rounds": [blade.rounds for blade in blades],
+        "blade_displacement": [blade.each.largest[0] for blade in blades],
+        "blade_contact_share": [blade.contact_share for blade in blades],
+        "blade_trend": [blade.trend for blade in blades],
+        "blade_extremes": np.array(
+            [filled(blade.each.extremes, scene.rounds) for blade in blades], np.float32
+        ),
+        "blade_ledger": [
+            [getattr(blade.facts.ledger, name) for name in energies] for blade in blades
+        ],
+    }
+    if rounds := scene.record.spectrum_rounds:
+        orders = np.arange(1, scene.record.highest_order + 1)
+        along = np.full((len(blades), len(orders)), np.nan, np.float32)
+        if outcome.status in WITH_RESULT:
+            samples = rounds * scene.record.samples_per_round
+            for j, blade in enumerate(blades):
+                along[j] = spectrum(blade.u_r[-samples:, 0])[orders * rounds]
+        values["blade_along"] = along
+    return values
+
+
+def _of_recorded(run: Run, listed: Sequence[int], said: dict[str, Any]) -> dict[str, Entry]:
+    """Records over time of the blades ``listed``, in single precision."""
+    each = [_asked_for(replace(run, outcome=run.outcome.blades[j])) for j in listed]
+    return {
+        f"blade_{name}": entry(
+            (SPEED, "recorded", *VARIABLES[name][0].split()),
+            np.array([[values[name] for values in each]], np.float32),
+            VARIABLES[name][1],
+            f"{VARIABLES[name][2]}, of a blade".format(**said),
+        )
+        for name in OVER_TIME
+        if name in each[0]
+    }
+
+
+def of_final_state(final: FinalState | EndOfStage) -> xr.Dataset:
     """Variables of a sweep, of one speed, that hold the end of its run."""
+    if isinstance(final, EndOfStage):
+        each = [of_final_state(blade) for blade in final.blades]
+        of_liner = {f"{END}eps_p": each[0][f"{END}eps_p"]}
+        blades = [of.drop_vars([*of_liner, "end_rod"]) for of in each]
+        of_casing = {
+            f"{END}{name}": ((SPEED, *dims), getattr(final, name)[None])
+            for name, dims in OF_STAGE.items()
+            if getattr(final, name).size
+        }
+        return xr.concat(blades, dim="blade").transpose(SPEED, ...).assign(of_liner | of_casing)
     data = {
         f"{END}{name}": ((SPEED, *OF_FINAL_STATE.get(name, ())), np.asarray(value, float)[None])
         for name, value in vars(final).items()
     }
     # numbered, so that windows of different lengths may lie in one file
-    return data | {"end_rod": ("end_rod", np.arange(final.part.shape[1]))}
+    return xr.Dataset(data | {"end_rod": ("end_rod", np.arange(final.part.shape[1]))})
 
 
-def final_state_of(run: xr.Dataset) -> FinalState:
+def final_state_of(run: xr.Dataset) -> FinalState | EndOfStage:
     """End of one run of a sweep."""
+    if "blade" in run[f"{END}x"].dims:
+        blades = [final_state_of(run.isel(blade=j)) for j in range(run.sizes["blade"])]
+        none = np.zeros((max(2, len(blades)), 0))  # of a casing that stands
+        of_casing = {name: run.get(f"{END}{name}", xr.DataArray(none)).values for name in OF_STAGE}
+        return EndOfStage(cast(list[FinalState], blades), **of_casing)
     values: dict[str, Any] = {
         field.name: run[f"{END}{field.name}"].values for field in fields(FinalState)
     }
@@ -584,6 +698,7 @@ def _asked_for(run: Run) -> dict[str, Any]:
     scene, record = run.scene, run.scene.record
     outputs = (
         (record.wear, lambda run: {"wear": run.outcome.wear.astype(np.float32)}),
+        (record.wear_by_round, _of_wear),
         (record.spectrum_rounds, of_spectrum),
         (scene.casing.moves, _of_casing),
         (record.history, _of_history),
@@ -611,12 +726,27 @@ def _last(scene: Scene) -> int:
     return 0 if scene.until else scene.rounds
 
 
+def _of_wear(run: Run) -> dict[str, Any]:
+    """Worn depth of each eighth of the chord after each revolution; nan where not computed."""
+    by_round = filled(run.outcome.wear_by_round, run.scene.rounds)
+    return {"wear_by_round": by_round, "share": (np.arange(SHARES) + 0.5) / SHARES}
+
+
 def _of_history(run: Run) -> dict[str, Any]:
     """Displacements at the places of the history."""
     record, samples = run.scene.record, run.scene.record.samples_per_round
-    u_r = filled(run.outcome.u_r, run.scene.rounds * samples)
-    time = np.arange(1, len(u_r) + 1) / samples
-    return {"history": u_r[:, 1:].T, "chord": record.chord, "history_time": time}
+    times = run.scene.rounds * samples
+    values = {
+        "history": filled(run.outcome.u_r, times)[:, 1:].T,
+        "chord": record.chord,
+        "history_time": np.arange(1, times + 1) / samples,
+    }
+    if record.directions:
+        values["history_u"] = filled(run.outcome.moved, times).transpose(1, 2, 0)
+        values["direction"] = [*record.directions]
+    if run.outcome.pushed.size:
+        values["history_force"] = filled(run.outcome.pushed, times).T
+    return values
 
 
 def _of_states(run: Run) -> dict[str, Any]:

@@ -13,7 +13,7 @@ from simulate.errors.checked import checked
 from simulate.errors.neighbours import judged
 from simulate.errors.resolution import check_resolution
 from simulate.errors.run import Case, Run
-from simulate.marching import FinalState, Worn, check_scene, make_kernel, prepare
+from simulate.marching import AnyEnd, check_scene, make_kernel, prepare
 from simulate.marching.refusals import require_sweep
 from simulate.scene import Scene
 from simulate.sweeps.continued import before
@@ -120,7 +120,7 @@ def set_up(
     rom: Rom,
     Omega: float,
     choice: Choice | None = None,
-    start: FinalState | Worn | None = None,
+    start: AnyEnd | None = None,
 ) -> Case:
     """``prepare``, and without a ``choice`` of the steps a check that they resolve the rub.
 

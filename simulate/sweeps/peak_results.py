@@ -147,6 +147,7 @@ def of_sweep(
         "mu_crit": float(runs["mu_crit"].min()) if "mu_crit" in runs else None,
         "reasons": sorted({*runs["reason"].values.astype(str)} - {""}) if "reason" in runs else [],
         "ends": ends(runs),
+        "blades": of.stage.count if of.stage else 1,
         "whirls": whirls(rom, of.liner, of.casing, MODES),
         "peaks": [peak.plain() for peak in peaks],
         "worst": [peak.plain() for peak in worst],

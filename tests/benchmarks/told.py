@@ -61,6 +61,12 @@ def moving(draw: Draw) -> dict[str, Any]:
     return values | {"order": draw.randint(0, 5), "damping_ratio": draw.over(2e-3, 2e-2)}
 
 
+def of_stage(draw: Draw) -> dict[str, Any]:
+    """Blades over one liner, equal or not."""
+    scatter = {"longer_um": {"std_gaps": draw.over(1e-3, 0.2), "seed": draw.randint(0, 99)}}
+    return {"count": draw.choice([2, 8, 20])} | (scatter if draw.random() < 0.5 else {})
+
+
 def drawn(draw: Draw) -> tuple[str, dict[str, Any]]:
     """Directions of the model, and a scene as a user writes it."""
     blade, directions = draw.choice(MODELS)
@@ -102,6 +108,7 @@ def drawn(draw: Draw) -> tuple[str, dict[str, Any]]:
             **draw.maybe(0.7, spectrum_rounds=2),
             **draw.maybe(0.2, states_rounds=1),
         },
+        **draw.maybe(0.2, stage=of_stage(draw)),
         **draw.maybe(0.5, verify=draw.choice(VERIFY[1:])),
         **draw.maybe(0.2, peaks={"orders": [draw.randint(2, 8)], "within_over_f1": 0.005}),
         **draw.maybe(0.2, peaks={"within_over_f1": 0.005}),

@@ -21,6 +21,7 @@ from geometry.section_table import read_sections
 from simulate.scene import Scene
 from simulate.scene.casing_modes import AnyModes
 from simulate.scene.laws.table import STRAIN, STRESS, Curve
+from simulate.scene.stage import AnyLengths
 from simulate.scene.tables import (
     GROWTHS,
     RADII,
@@ -279,6 +280,27 @@ def modes() -> Cases:
     return (changed | cell(MODES, [0], names)).map(lambda change: case(*change))
 
 
+def lengths() -> Cases:
+    """Lengths of the blades of a stage, one column: cells and lines changed."""
+
+    def case(change: str, text: str, must: str = "either") -> Case:
+        def read(folder: Path) -> Any:
+            holder = create_model("Scene", __base__=Settings, table=AnyLengths)
+            return check_settings(holder, {"table": folder / "t.csv"}, "scene.yaml").table
+
+        def fault(table: Any) -> str:
+            held = [float(row[0]) for row in _rows(_numeric(text))]
+            return "" if list(table) == held else "holds other numbers"
+
+        return Case("table", change, {"t.csv": text.encode()}, read, must, fault)
+
+    text, rows = "longer_um\n2.5\n0\n-3\n", [1, 2, 3]
+    changed = cell(text, rows, NUMBERS) | long(text, [0, *rows]) | cut(text)
+    return (changed | cell(text, [0], ["", "um", "longer_in"])).map(lambda change: case(*change))
+
+
 def table_cases() -> Cases:
     """All of these."""
-    return st.one_of(sections(), sections(), casings(), designs(), other_tables(), modes())
+    return st.one_of(
+        sections(), sections(), casings(), designs(), other_tables(), modes(), lengths()
+    )

@@ -9,9 +9,18 @@ from systems import Hooke, in_the_middle, strips
 from simulate.contact.compiled import for_types_of
 from simulate.contact.ramp import smooth
 from simulate.marching import piecewise_exact
+from simulate.marching.common_casing import common_casing, lending, lent_columns
+from simulate.marching.disk import (
+    Disk,
+    Turned,
+    does_not_slide,
+    march_disk,
+    scheme_of,
+    stacked,
+)
 from simulate.marching.friction import sliding
 from simulate.marching.kernel import Recorded, at_start, march_round
-from simulate.marching.modal import padded_rows, rows_of
+from simulate.marching.modal import TURNS, padded_rows, rows_of
 from simulate.marching.moving_casing import moving_casing
 from simulate.scene.casing_modes import CasingMode
 
@@ -102,3 +111,58 @@ def band(of, inside, outside, least=1e-7):
     return [
         brentq(lambda Omega: growth(of, Omega) - least, inside, end, xtol=1e-10) for end in outside
     ]
+
+
+def stood(theta, k_c, Omega, h, modes, zeta=0.0):
+    """Equal blades at angles ``theta``, rad, on the pair: a disk, and the strips of each."""
+    scheme, system = pressed(k_c, Omega, h, modes, zeta=zeta)
+    moving, blades = moving_casing(modes, places(0.0), False, False), len(theta)
+    lent = lent_columns(moving, scheme, 1)
+    disk = Disk(
+        schemes=stacked([lending(scheme, 1, lent)]),
+        which=np.zeros(blades, np.int64),
+        slides=does_not_slide,
+        g0=np.tile(system.g0, (blades, 1)),
+        first=np.tile(system.first, (blades, 1)),
+        leg=1,
+        common=common_casing(moving, np.array(theta), lent, h, Omega),
+    )
+    return disk, system
+
+
+def march_stood(disk, system, steps, start=None):
+    """State of the blades after so many steps from ``start``: x, y of all, casing's, forces."""
+    common, blades = disk.common, len(disk.which)
+    n = disk.schemes.Phi.shape[1]
+    states = stacked([at_start(scheme_of(disk, j), system) for j in range(blades)])
+    motion, rows = states.motion, np.zeros((blades, 1, 1))
+    x, y, of_casing, pulled = np.split(
+        np.zeros(2 * (blades + 2) + 2 * blades) if start is None else start,
+        np.cumsum([blades, blades, 4]),
+    )
+    motion.x[:, 0, 0], motion.y[:, 0, 0] = x, y
+    motion.u[:, 0] = motion.x[:, 0] @ disk.schemes.Phi.T
+    common.motion.x[0, :2], common.motion.y[0, :2] = of_casing.reshape(2, 2)
+    common.pulled[:, :2] = pulled.reshape(blades, 2)
+    system = system._replace(rigid_depth=1e9)  # never worn through
+    recorded = Recorded(
+        rows, np.zeros((blades, 3, 0)), np.zeros((blades, 0, 0)),
+        Phi=padded_rows(np.zeros((1, n))), weights=np.zeros((2, 0, 1)), casing=np.zeros((1, 2)),
+        pushed=np.zeros((blades, 1, 0)),
+    )  # fmt: skip
+    turned = Turned.room(blades)
+    arguments = disk, system, states, recorded, smooth(0.0), np.inf, 0, steps, turned
+    for_types_of(march_disk, *arguments)(*arguments)
+    assert (turned.contacts == steps).all()
+    now, own = steps % TURNS, common.motion
+    found = motion.x[:, now, 0], motion.y[:, now, 0], own.x[now, :2], own.y[now, :2]
+    return np.concatenate([*found, common.pulled[:, :2].ravel()]), states
+
+
+def of_stage(Omega, theta, k_c=0.2, h=0.01):
+    """As ``of_kernel``, of several equal blades."""
+    disk, system = stood(theta, k_c, Omega, h, [mode()])
+    rest, _ = march_stood(disk, system, 1)
+    step = [march_stood(disk, system, 1, unit)[0] - rest for unit in np.eye(rest.size)]
+    values = np.linalg.eigvals(np.array(step).T)
+    return np.log(values[abs(values) > 0.5].astype(complex)) / h

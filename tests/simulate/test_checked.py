@@ -26,7 +26,7 @@ def run_of(speed, displacement=1.0, status="ok", steps=100.0):
     """A judged run of no spectrum, of so many steps."""
     record = SimpleNamespace(spectrum_rounds=None)
     each = SimpleNamespace(largest=(displacement, 1.0))
-    outcome = SimpleNamespace(status=status, each=each, reason="", trend="steady")
+    outcome = SimpleNamespace(status=status, each=each, reason="", trend="steady", blades=())
     setup = SimpleNamespace(Omega=speed, h=1.0)
     return Run(SimpleNamespace(record=record), None, setup, outcome=outcome, steps=steps)
 

@@ -119,7 +119,7 @@ def test_an_interface_that_breaks_the_condition_may_have_several_solutions():
 def test_its_kernel_is_kept_for_other_processes(coarse_rom):
     """A kernel that reads a whole module has no key: each process would compile it."""
     case = rubbing(0.1)
-    *_, arguments = _start(set_up(case, coarse_rom), case.record, case.rounds, case.until)
+    arguments = _start(set_up(case, coarse_rom), case.record, case.rounds, case.until).arguments
     assert key(march_round, tuple(map(numba.typeof, arguments(0))))
 
 

@@ -163,9 +163,8 @@ def test_torque_of_a_run_that_ended_before_is_known_as_far_as_it_went(rigid, con
     forces = np.zeros((2, 8))
     forces[:, 3] = np.array([2.0, 3.0]) / rigid.line(np.array([3.5 / 8]))[0, 0]
     work = 2 * np.pi * np.array([1.0, 2.0])
-    found = torque_of_rounds(
-        case, rigid, SimpleNamespace(casing_work=work, force_tangential_mean=forces)
-    )
+    blade = SimpleNamespace(casing_work=work, force_tangential_mean=forces)
+    found = torque_of_rounds(case, rigid, SimpleNamespace(each_blade=[blade]))
     np.testing.assert_allclose(found, [*expected, *[np.nan] * 3], rtol=1e-12)
 
 

@@ -8,7 +8,7 @@ from runs import marched, set_up
 from scenes import EXACT, SCHEMES, scene
 
 from simulate.marching import march
-from simulate.marching.run import UNDER
+from simulate.marching.ends import UNDER
 from simulate.sweeps.sweep import sweep
 
 APART = {"casing__harmonics": [{"order": 2, "amplitude_gaps": 0.99}]}

@@ -72,6 +72,7 @@ OF = {
     "no_torque": None,
     "mu_crit": None,
     "whirls": [],
+    "blades": 1,
     "worst": [],
     "peaks": [ANSWER],
 }
@@ -189,6 +190,9 @@ def test_scene_says_its_model_its_crossings_and_what_its_ends_show(summed):
     (scene,) = summed(reasons=["too wide a gap"])["scenes"]
     assert "76 DoFs (frequencies within 0.01 % of the full one)" in summary.about(scene)
     assert summary.about(scene).endswith("runs: 40 ok, 1 diverged; no contact: too wide a gap")
+    assert "the worst" not in summary.about(scene)
+    (of_stage,) = summed(blades=36)["scenes"]
+    assert summary.about(of_stage).startswith("36 blades, numbers of the worst; blade ")
     assert summary.notes(scene)[:2] == [
         "Linear crossings of mode 1, rpm: EO 5 1362, EO 4 1861.",  # of the made model, 100 Hz
         "Ends of the sweep: 2400 rpm (0.200): 2 lobes; 4800 rpm (0.400): gap 50.0 and 60.0 µm at "

@@ -19,7 +19,7 @@ from simulate.contact.gaps import gaps_at, given_gaps
 from simulate.contact.places import share_weights
 from simulate.errors.accuracy import Choice
 from simulate.errors.run import as_long
-from simulate.marching import FinalState, Outcome, Setup, Worn, check_scene, march, prepare
+from simulate.marching import AnyEnd, Outcome, Setup, check_scene, march, prepare
 from simulate.scene import LEADING, Record, Scene
 from simulate.sweeps.continued import before
 from workflow.figures import style
@@ -88,6 +88,7 @@ def by_rounds(
         record=Record(
             samples_per_round=scene.record.samples_per_round,
             end=True,
+            blades="all" if scene.stage else "worst",
             history={"chord": [LEADING]},
         ),
     )
@@ -99,13 +100,14 @@ def by_rounds(
 
 
 def _rub(
-    scene: Scene, rom: Rom, setup: Setup, outcomes: list[Outcome], first: FinalState | Worn | None
+    scene: Scene, rom: Rom, setup: Setup, outcomes: list[Outcome], first: AnyEnd | None
 ) -> Rub:
     given, nu = float(given_gaps(scene.gaps, rom, LEADING)), setup.strips.d.size
     gap = float(gaps_at(scene.gaps, rom, LEADING, setup.Omega))
     leading = share_weights(setup.places.ends)[0]
     rods = setup.strips.thickness * first.eps_p if first else 0 * outcomes[0].wear
-    u_r = np.array([outcome.u_r[:, 1] for outcome in outcomes])
+    worst, blades = outcomes[-1].worst, len(outcomes[-1].each_blade)
+    u_r = np.array([outcome.each_blade[worst].u_r[:, 1] for outcome in outcomes])
     rounds, samples = u_r.shape
     ramped = first.rounds if first else 0
     times = ramped + (np.arange(rounds * samples) + 1) / samples
@@ -117,7 +119,7 @@ def _rub(
 
     return Rub(
         speed=setup.Omega / rom.omega1,
-        tip=float(rom.line(np.array([LEADING]))[0, 1]),
+        tip=float(rom.line(np.array([LEADING]))[0, 1]) + 2 * np.pi * worst / blades,
         ended=None if rounds == scene.rounds and outcomes[-1].final else outcomes[-1].status,
         inward=inward,
         travels=bool(scene.casing.travelling),

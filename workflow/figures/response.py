@@ -162,6 +162,8 @@ def liner_and_tip(scene: Scene) -> str:
     """The liner's law with its parameters, moduli in Pa, and the tip, for labels."""
     law, contact = scene.liner.law, scene.contact
     moves = ",\ncasing moves" if scene.casing.moves else ""
+    if scene.stage:
+        moves += f",\n{scene.stage.count} blades: the worst"
     unit = getattr(law, "unit_Pa", None)
     listed = [
         f"{_symbol(name)} = {EngFormatter('Pa')(rounded(unit * x, 3)) if unit else f'{x:g}'}"
