@@ -28,7 +28,7 @@ from simulate.marching import (
     march,
 )
 from simulate.marching.common_casing import RIGID
-from simulate.marching.disk import Disk, Turned, does_not_slide, march_disk, stacked
+from simulate.marching.disk import Disk, Turned, does_not_slide, leg_of, march_disk, stacked
 from simulate.marching.kernel import Recorded, at_start
 from simulate.scene import Stage
 from simulate.scene.stage import Frequencies, Lengths
@@ -111,7 +111,7 @@ def test_blades_over_an_elastic_liner_are_single_runs(coarse_rom):
     """Bits with the rods of the start shifted; with the casing turned, to round-off."""
     stage = {"count": 4, "longer_um": [0, 2, -1, 1], "frequencies": [0, 0.01, 0, -0.02]}
     case = rubbing(**ELASTIC, liner__rods_per_round=2040, record__blades="all", stage=stage)
-    setup, phase = set_up(case, coarse_rom), 0.0
+    setup = set_up(case, coarse_rom)
     of_stage = march(case, setup)
     single = case.but(stage=None, record={"blades": "worst"})
     for j, blade in enumerate(of_stage.blades):
@@ -119,20 +119,15 @@ def test_blades_over_an_elastic_liner_are_single_runs(coarse_rom):
         assert alone.contact_share == blade.contact_share > 0.1
         for name in ("u_r", "force_peak", "casing_work"):
             np.testing.assert_array_equal(getattr(alone, name), getattr(blade, name))
-    of_stage = marched(
-        case.but(stage={"count": 4, "longer_um": None, "frequencies": None}), coarse_rom
-    )
-    for j, blade in enumerate(of_stage.blades):
-        phase = 360 * j / 4
+    three = {
+        "count": 3,
+        "longer_um": None,
+        "frequencies": None,
+    }  # by 120 and 240 deg, other casings
+    for j, blade in enumerate(marched(case.but(stage=three), coarse_rom).blades):
         turned = [
             of.model_dump(exclude_none=True)
-            | {
-                "phase_deg": of.phase_deg
-                + of.order * phase
-                - 360
-                * (of.phase_deg + of.order * phase > 360)
-                * ((of.phase_deg + of.order * phase) // 360)
-            }
+            | {"phase_deg": (of.phase_deg + 120 * j * of.order) % 360}
             for of in single.casing.harmonics
         ]
         alone = marched(single.but(casing={"harmonics": turned}), coarse_rom)
@@ -167,6 +162,18 @@ def test_legs_of_any_length_are_the_same_to_the_last_bit(name, coarse_rom):
     if name == "flat":
         wrong = march(case, replace(setup, stage=replace(setup.stage, leg=setup.steps)))
         assert not np.array_equal(wrong.wear, last.wear)
+
+
+@pytest.mark.parametrize("blades", [2, 7, 12, 30, 60])
+def test_windows_of_neighbours_do_not_meet_in_a_leg(blades, coarse_rom):
+    """And would in one more sample, or in twice the part of one."""
+    strips, steps, samples = set_up(rubbing(), coarse_rom).strips, 640, 64
+    leg, every = leg_of(strips, blades, steps, samples, most=0.0), 10
+    window, pitch = strips.rods_covered + 2 + 2 * strips.partly_covered, 512 / blades
+    more = leg + every if leg >= every else 2 * leg
+    assert leg * strips.advance + window <= pitch < more * strips.advance + window
+    assert leg % every == 0 or every % leg == 0
+    assert leg_of(strips._replace(tangential=True), blades, steps, samples, most=0.05) < leg
 
 
 @pytest.mark.parametrize("name", WITH)
