@@ -25,7 +25,7 @@ from rom.model import Rom
 from simulate.errors.neighbour import Neighbour
 from simulate.errors.observables import differences
 from simulate.errors.run import Case, Run
-from simulate.marching import TO_THE_END, Setup, prepare
+from simulate.marching import TO_THE_END, Outcome, Setup, prepare
 from simulate.scene import Scene
 
 STEP_RATIO, QUICK_STEP_RATIO = 2, 4  # steps of the two companions over that of the run
@@ -134,7 +134,12 @@ def _companion(run: Run, coarser: Coarser, step_ratio: int = STEP_RATIO) -> Run:
     """March the companion; its states are those of the run's own model."""
     coarse, T = coarser
     other = run.neighbour(companion(run.setup, coarse, step_ratio)).march()
-    return replace(other, outcome=replace(other.outcome, states=other.outcome.states @ T.T))
+
+    def of_run(outcome: Outcome) -> Outcome:
+        """The outcome with states of the run's own model."""
+        return replace(outcome, states=outcome.states @ T.T, blades=[*map(of_run, outcome.blades)])
+
+    return replace(other, outcome=of_run(other.outcome))
 
 
 def error_by_part(run: Run, coarser: Coarser) -> Parts:

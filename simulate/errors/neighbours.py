@@ -45,7 +45,7 @@ from simulate.errors.neighbour import Neighbour
 from simulate.errors.observables import differences
 from simulate.errors.resolution import LOST, footprints_passed
 from simulate.errors.run import Run
-from simulate.marching import SENSITIVE_FROM, STATED, TO_THE_END, Setup, status
+from simulate.marching import SENSITIVE_FROM, STATED, TO_THE_END, SceneError, Setup, status
 from simulate.scene import Scene
 
 GAP_CHANGE = 1e-10  # of the gaps: a million times round-off, a millionth of any tolerance
@@ -104,9 +104,7 @@ def judged(run: Run, accurate: bool = True, check: bool = False) -> Run:
     only an eighth of the step converges, its run is the result. A run without second runs and
     errors may lose less energy (``resolution``).
     """
-    marched = [
-        run := replace(run, outcome=replace(run.outcome, status=status.judge(run.outcome.facts)))
-    ]
+    marched = [run := replace(run, outcome=status.judged(run.outcome))]
 
     def march_second(other: Neighbour) -> Run:
         """March a second run, and keep it for the count of steps."""
@@ -116,12 +114,12 @@ def judged(run: Run, accurate: bool = True, check: bool = False) -> Run:
     result, bound = _from_second_runs(run, march_second, check)
     departure, outcome = max(result.departures.values(), default=0.0), result.outcome
     lost = status.LOST if result.errors else LOST[run.scene.stepping.scheme]
-    verdict = status.judge(outcome.facts, departure, bound, accurate, lost)
-    reason = outcome.reason if verdict == outcome.status else ""
+    verdict = status.judged(outcome, departure, bound, accurate, lost)
+    reason = outcome.reason if verdict.status == outcome.status else ""
     return replace(
         result,
         scene=run.scene,  # that of a second run does not end where it is steady
-        outcome=replace(outcome, status=verdict, reason=reason),
+        outcome=replace(verdict, reason=reason),
         steps=run.steps
         + sum(each.outcome.rounds * each.setup.steps for each in marched[bool(run.steps) :]),
     )
@@ -156,7 +154,8 @@ def from_twice(
 ) -> tuple[dict[str, float], float]:
     """Bounds of errors from a run with twice the step, and the one that counts.
 
-    The latter is inf where such a step may be too long for the scheme, friction, or the samples.
+    The latter is inf where such a step may be too long for the scheme, friction, the samples, or
+    the blades of a stage.
     """
     scene, steps, samples = run.scene, run.setup.steps, run.scene.record.samples_per_round
     samples //= 1 + steps // samples % 2
@@ -168,7 +167,10 @@ def from_twice(
         return {}, inf
     thinned = partial(one_rod_more, samples=samples)
     longer = Neighbour("twice the step", thinned, steps=TWICE, cost=TWICE)
-    return _against(run, march_second(longer), OF_TWICE)
+    try:
+        return _against(run, march_second(longer), OF_TWICE)
+    except SceneError:  # of a stage, whose blades would come too near each other in a step
+        return {}, inf
 
 
 def _in_doubt(
@@ -219,6 +221,6 @@ def _against(run: Run, other: Run, safety: float) -> tuple[dict[str, float], flo
 
 def _other_contact(run: Run, other: Run) -> bool:
     """Whether the steps in contact are not as many times more as all steps are."""
-    shares = run.outcome.contact_share, other.outcome.contact_share
+    shares = [sum(blade.contact_share for blade in of.outcome.each_blade) for of in (run, other)]
     chatters = run.scene.stepping.scheme == "central-difference"
     return not chatters and abs(shares[1] - shares[0]) > CONTACT_CHANGE * max(shares)

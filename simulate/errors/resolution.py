@@ -50,12 +50,13 @@ def check_resolution(setup: Setup, samples: int, halves: bool) -> None:
     SceneError
         With the least steps per revolution.
     """
-    strips = setup.strips
+    longest = min(setup.blades, key=lambda blade: blade.strips.g0.min())
+    strips = longest.strips
     deepest = farthest(strips) - float(strips.g0.min())
     if not strips.touches or deepest <= 0:  # a blade at rest stays so
         return
     period, footprints = _period(setup), footprints_passed(setup)
-    window = shortest_window(setup, deepest)
+    window = shortest_window(longest, deepest)
     times, what = max(
         (
             (HALVED if halves else PERIOD) / period,
@@ -100,8 +101,8 @@ def footprints_passed(setup: Setup) -> float:
 
 
 def _period(setup: Setup) -> float:
-    """Steps in a period of the first mode."""
-    return 2 * np.pi / (setup.omega[0] * setup.h)
+    """Steps in a period of the first mode, of the fastest blade."""
+    return 2 * np.pi / (max(blade.omega[0] for blade in setup.blades) * setup.h)
 
 
 def shortest_window(setup: Setup, deepest: float) -> float:

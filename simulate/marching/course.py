@@ -274,7 +274,6 @@ class Course:
             **of_liner,
             **self._over_time(u_r),
             ends=setup.places.ends,
-            wear=strips.thickness * state.eps_p,
             force_peak=forces[:, 0],
             force_mean=forces[:, 1] / taken,
             force_tangential_mean=forces[:, 2] / taken,

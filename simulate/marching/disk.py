@@ -123,7 +123,10 @@ def record_of(of, j):
 
 @compiled_kernel
 def march_disk(disk, strips, states, recorded, ramp, bound, done, steps, turned):
-    """Compute one revolution of all blades, leg by leg; it ends with the leg in which one ends.
+    """Compute one revolution of all blades, leg by leg; it ends where the first of them ends.
+
+    Blades that have marched the leg before that one may have gone further, to the leg's end at
+    most.
 
     Parameters
     ----------
@@ -157,12 +160,16 @@ def march_disk(disk, strips, states, recorded, ramp, bound, done, steps, turned)
                 turned.contacts[j] += touched
             turned.number[j], turned.end[j], turned.strip[j] = at, end, strip
             turned.loaded[j] = loaded
-            over |= end != RUNNING
+            if end != RUNNING:  # for the others, too
+                over, stop = True, at
             common.take(common, j, state.motion.modal, loaded)
         common.end(common, now, last, before)
         if stop % every == 0:
             common.record(common, now, recorded.casing[stop // every - 1])
         number = stop
+    for j in range(blades):  # of several that end in a leg the first ends the run
+        if over and turned.number[j] > number:
+            turned.end[j] = RUNNING
 
 
 def stacked(values: Sequence[Any], name: str = "") -> Any:

@@ -4,7 +4,7 @@ At the same speed a run goes on to the last bit as one that never stopped. At an
 blade keeps its displacement u = Phi q and velocity Phi q', on the modes of K(Omega) there.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -127,7 +127,8 @@ def end_of_stage(blades: list[FinalState], common: Common, steps: int) -> EndOfS
     rows = rows_at(blades[0].rounds, steps)
     x, y = common.motion[:2] if common.motion else np.zeros((2, TURNS, 0))
     pulled = common.pulled if common.motion else np.zeros((len(blades), 0))
-    return EndOfStage(blades, x[rows], y[rows], pulled.copy())
+    of_one = [replace(blade, eps_p=blades[0].eps_p) for blade in blades]  # liner
+    return EndOfStage(of_one, x[rows], y[rows], pulled.copy())
 
 
 def begin_casing(common: Common, start: EndOfStage, steps: int) -> None:

@@ -191,7 +191,11 @@ def march(scene: Scene, setup: Setup, start: AnyEnd | None = None) -> Outcome:
             tau = max([slowest, *(course.responds() for course in courses)]) if whole else np.nan
             found = {course.look(standing, tau) for course in courses}
             words.append(STEADY if found == {STEADY} else TOO_SHORT)
-    of_liner = {"casing": of_casing, "wear_by_round": np.array(by_round)}
+    of_liner = {
+        "casing": of_casing,
+        "wear": setup.strips.thickness * courses[0].state.eps_p,
+        "wear_by_round": np.array(by_round),
+    }
     blades = [course.outcome(tau, whole, **of_liner) for course in courses]
     if setup.stage is None:
         return blades[0]
@@ -202,6 +206,7 @@ def march(scene: Scene, setup: Setup, start: AnyEnd | None = None) -> Outcome:
     return replace(
         blades[worst],
         worst=worst,
+        trend=next((of.trend for of in [blades[worst], *blades] if of.trend != STEADY), STEADY),
         blades=[
             blade if j in recorded else blade.without_records(least * samples)
             for j, blade in enumerate(blades)
@@ -212,7 +217,10 @@ def march(scene: Scene, setup: Setup, start: AnyEnd | None = None) -> Outcome:
 
 
 def _worst(blades: list[Outcome], longer: NDArray[np.float64]) -> int:
-    """The blade of the worst status; of several that of the largest displacement, the longest."""
+    """The blade of the worst status; of several that of the largest displacement, the longest.
+
+    ``longer`` (N,), m: their lengths.
+    """
 
     def rank(j: int) -> tuple[float, ...]:
         """Order of blade ``j``."""

@@ -1,6 +1,7 @@
 """Status of a run, from its facts and its second runs; why it has no contact."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,6 +11,9 @@ from simulate.contact.travelling import farthest
 from simulate.marching.kernel import RUNNING, WORN_THROUGH
 from simulate.marching.setup import Setup
 from simulate.scene import Scene
+
+if TYPE_CHECKING:  # which imports this module
+    from simulate.marching.course import Outcome
 
 # in the order in which tables number them
 STATUSES = (
@@ -21,8 +25,11 @@ STATUSES = (
     "unstable",
     "no-contact",
 )
-# of a march, from the least on: the worst blade of a stage is that of the last of them
-SEVERITY = ("no-contact", "ok", "inaccurate", "diverged", "unstable", "liner-exhausted")
+# from the least on: the worst blade of a stage is that of the last of them
+SEVERITY = (
+    *("no-contact", "ok", "sensitive", "inaccurate"),
+    *("diverged", "unstable", "liner-exhausted"),
+)
 # statuses of the runs whose numbers are results; without contact, those of a blade at rest
 WITH_RESULT = ("ok", "sensitive", "no-contact")
 TO_THE_END = (*WITH_RESULT, "inaccurate")  # of those that can be compared
@@ -89,6 +96,17 @@ def judge(
         (facts.at_rest, "no-contact"),
     )
     return next((status for holds, status in verdicts if holds), "ok")
+
+
+def judged(outcome: "Outcome", *found: Any) -> "Outcome":
+    """The outcome with the status that follows from what second runs have ``found``.
+
+    As of ``judge``, of each blade; that of the whole is the worst.
+    """
+    verdicts = [judge(blade.facts, *found) for blade in outcome.each_blade]
+    pairs = zip(outcome.blades, verdicts, strict=False)
+    blades = [replace(blade, status=verdict) for blade, verdict in pairs]
+    return replace(outcome, status=max(verdicts, key=SEVERITY.index), blades=blades)
 
 
 def why_no_contact(scene: Scene, setup: Setup, eps_p: NDArray[np.float64], rounds: int) -> str:

@@ -90,7 +90,8 @@ def alone(steps_a_period, lost, status="ok", contact=0.5, scheme="piecewise-exac
     outcome = SimpleNamespace(
         status=status, contact_share=contact, ledger=Ledger(1.0, 1.0 - lost, 0, 0, 0, 0, 0)
     )
-    setup = SimpleNamespace(omega=np.array([2 * np.pi, 9e9]), h=1 / steps_a_period)
+    blade = SimpleNamespace(omega=np.array([2 * np.pi, 9e9]))
+    setup = SimpleNamespace(blades=[blade], h=1 / steps_a_period)
     return Run(
         SimpleNamespace(stepping=SimpleNamespace(scheme=scheme)), None, setup, outcome=outcome
     )

@@ -14,10 +14,14 @@ from systems import Parameters, strips
 from test_moving_casing import WITH, given
 
 from geometry.base import SettingsError
+from rom.coarser import coarser
 from simulate.contact.compiled import for_types_of
 from simulate.contact.ledger import ON_CASING
 from simulate.contact.places import by_share
 from simulate.contact.ramp import smooth
+from simulate.errors.companion import with_errors
+from simulate.errors.resolution import check_resolution
+from simulate.errors.run import Case
 from simulate.loads import torque_of_rounds
 from simulate.marching import (
     EndOfStage,
@@ -30,6 +34,7 @@ from simulate.marching import (
 from simulate.marching.common_casing import RIGID
 from simulate.marching.disk import Disk, Turned, does_not_slide, leg_of, march_disk, stacked
 from simulate.marching.kernel import Recorded, at_start
+from simulate.marching.status import judged
 from simulate.scene import Stage
 from simulate.scene.stage import Frequencies, Lengths
 from simulate.sweeps.cost import cost
@@ -323,6 +328,20 @@ def test_the_worst_blade_is_told_with_its_number(coarse_rom):
     assert set(ended["blade_status"].values[[0, 2]]) <= {"ok", "no-contact"}
 
 
+def test_a_run_ends_where_the_first_blade_ends(coarse_rom):
+    """Whatever the leg: of two that are worn through in it the first counts."""
+    thin = {"liner__thickness_mm": 0.02, "liner__law__unit_MPa": 1.0}
+    case = rubbing(rounds=4, stage={"count": 3, "longer_um": [8.0, 8.0, 10.0]}, **thin)
+    setup = set_up(case, coarse_rom)
+    assert setup.stage.leg > setup.steps / 4
+    for leg in (setup.stage.leg, 10):
+        ended = march(case, replace(setup, stage=replace(setup.stage, leg=leg)))
+        assert (ended.status, ended.worst) == ("liner-exhausted", 1)
+        assert ended.rounds == pytest.approx(0.0875) == ended.blades[2].rounds
+        assert {blade.status for blade in ended.blades[::2]} <= {"ok", "no-contact"}
+        assert ended.xi == pytest.approx(0.0625) and np.isfinite(ended.theta)
+
+
 def test_no_contact_is_said_where_no_blade_touches(coarse_rom):
     far = rubbing(casing__harmonics=[{"order": 2, "amplitude_gaps": 0.7}], stage={"count": 3})
     none = marched(far, coarse_rom)
@@ -355,6 +374,10 @@ def test_a_stage_is_steady_where_all_its_blades_are(coarse_rom):
     assert outcome.trend == "steady" and outcome.rounds < 200
     assert {blade.trend for blade in outcome.blades} == {"steady"}
     assert len({blade.time_constant for blade in outcome.blades}) == 1
+    far = rubbing(rounds=20, damping_ratio=0.02, stage={"count": 2, "longer_um": [0, -8.0]})
+    outcome = marched(far, coarse_rom)
+    assert [blade.trend for blade in outcome.blades] == ["steady", "too short to say"]
+    assert (outcome.worst, outcome.trend) == (0, "too short to say")
 
 
 def test_second_runs_compare_all_blades(coarse_rom):
@@ -362,6 +385,49 @@ def test_second_runs_compare_all_blades(coarse_rom):
     run = sweep(case, coarse_rom).isel(speed_over_f1=0)
     assert run["status"] == "ok" and 0 < run["error"].max() < 0.1
     assert run["departure"].max() < 1e-4
+
+
+def test_companions_of_a_stage_have_its_states(coarse_rom):
+    case = rubbing(record__states_rounds=1, liner__rods_per_round=640, stage={"count": 2})
+    run = Case(case, coarse_rom, set_up(case, coarse_rom)).march()
+    assert set(with_errors(run, coarser(coarse_rom)).errors) >= {"states", "history", "wear"}
+
+
+def test_where_twice_the_step_brings_blades_too_near_half_of_it_checks(coarse_rom):
+    case = rubbing(integrator=of_steps(768), rounds=1, stage={"count": 84}, verify={"share": 1.0})
+    run = sweep(case, coarse_rom).isel(speed_over_f1=0)
+    assert run["status"] == "ok" and run["error"].max() < 0.1
+
+
+def test_steps_are_short_enough_for_the_longest_and_the_fastest_blade(coarse_rom):
+    """Where the others do not touch, too."""
+    apart = [{"order": 2, "amplitude_gaps": 0.7}]
+    case = rubbing(casing__harmonics=apart, integrator=of_steps(320))
+    setup = set_up(case, coarse_rom)
+    check_resolution(setup, 64, halves=False)  # does not touch
+    long = case.but(stage={"count": 2, "longer_um": [0, 4.0]})
+    fast = case.but(stage={"count": 2, "longer_um": [0, 4.0], "frequencies": [0, 0.3]})
+    least = [
+        refused(
+            SceneError, check_resolution, set_up(of, coarse_rom), 64, False,
+            match="the first mode has .* steps in a period",
+        ).allowed["ge"]
+        for of in (long, fast)
+    ]  # fmt: skip
+    assert least[1] == pytest.approx(1.3 * least[0], abs=64)
+
+
+def test_energies_of_each_blade_are_judged(coarse_rom):
+    case = rubbing(rounds=2, stage={"count": 2, "longer_um": [0, -3.0]})
+    outcome = marched(case, coarse_rom)
+    assert judged(outcome).status == "ok"
+    facts = outcome.blades[1].facts
+    losing = replace(facts, ledger=replace(facts.ledger, work=-facts.ledger.casing))
+    blades = [outcome.blades[0], replace(outcome.blades[1], facts=losing)]
+    found = judged(replace(outcome, blades=blades))
+    assert found.status == "inaccurate"
+    assert [blade.status for blade in found.blades] == ["ok", "inaccurate"]
+    assert outcome.blades[0].wear is outcome.blades[1].wear  # one liner
 
 
 def test_torque_and_wear_per_pass_are_of_all_blades(coarse_rom):

@@ -106,7 +106,12 @@ def _rub(
     gap = float(gaps_at(scene.gaps, rom, LEADING, setup.Omega))
     leading = share_weights(setup.places.ends)[0]
     rods = setup.strips.thickness * first.eps_p if first else 0 * outcomes[0].wear
-    worst, blades = outcomes[-1].worst, len(outcomes[-1].each_blade)
+    blades = len(outcomes[-1].each_blade)
+    worst = max(
+        range(blades),
+        key=lambda j: max(outcome.each_blade[j].each.largest[0] for outcome in outcomes),
+    )
+    gap -= float(scene.stage.longer(given)[worst]) if scene.stage else 0.0
     u_r = np.array([outcome.each_blade[worst].u_r[:, 1] for outcome in outcomes])
     rounds, samples = u_r.shape
     ramped = first.rounds if first else 0
