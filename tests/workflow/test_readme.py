@@ -78,6 +78,13 @@ def test_what_the_page_says_a_scene_can_say_is_one():
     check_settings(Scene, scene | shown | {"liner": liner}, "simulate/README.md")
 
 
+def test_the_stage_that_the_page_shows_is_one():
+    """Its lines, put into a scene of ours."""
+    (shown,) = [code for code in blocks("simulate/README.md", "yaml") if "stage:" in code]
+    of = Scene.load(ROOT / "workflow/scenes/paper-e10.yaml").but(**yaml.safe_load(shown))
+    assert of.stage and of.stage.count == 36 and of.record.blades == [0, 7]
+
+
 @pytest.mark.parametrize("keys", ["casing: {scale: 2.0}", "accuracy: 0.01"])
 def test_scenes_on_a_base_that_the_page_shows_are_read(keys, tmp_path):
     (shown,) = [code for code in blocks("simulate/README.md", "yaml") if keys in code]
