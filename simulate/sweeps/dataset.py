@@ -46,7 +46,7 @@ from simulate.marching.trend import further
 from simulate.scene import GROWING, LEADING, OF_LAST_ROUNDS, Scene
 from simulate.scene.laws.table import Tabulated
 from simulate.scene.own_laws import of_result
-from simulate.signals import filled, lines, spectrum
+from simulate.signals import amplitude, filled, lines, spectrum
 from simulate.sweeps.result_types import Course
 
 type Entry = tuple[str | tuple[str, ...], Any, dict[str, Any]]
@@ -184,8 +184,8 @@ VARIABLES = {  # of each run: dimensions beside the speed, unit, meaning
     "blade_along": (
         "blade order",
         "m",
-        "amplitude of u_r of a blade at xi = 1/16 along engine orders, over the revolutions of the "
-        "spectrum",
+        "amplitude of u_r of a blade at xi = 1/16 along engine orders (largest within 0.25 of "
+        "each), over the revolutions of the spectrum",
     ),
     "departure": (
         "observable",
@@ -541,8 +541,8 @@ def _of_stage(run: Run) -> dict[str, Any]:
         along = np.full((len(blades), len(orders)), np.nan, np.float32)
         if outcome.status in WITH_RESULT:
             samples = rounds * scene.record.samples_per_round
-            for j, blade in enumerate(blades):
-                along[j] = spectrum(blade.u_r[-samples:, 0])[orders * rounds]
+            spectra = np.array([spectrum(blade.u_r[-samples:, 0]) for blade in blades])
+            along = np.array([amplitude(spectra, rounds, k) for k in orders], np.float32).T
         values["blade_along"] = along
     return values
 
