@@ -182,7 +182,7 @@ def test_windows_of_neighbours_do_not_meet_in_a_leg(blades, coarse_rom):
     assert leg_of(strips._replace(tangential=True), blades, steps, samples, most=0.05) < leg
 
 
-@pytest.mark.parametrize("name", WITH)
+@pytest.mark.parametrize("name", ["flat", "friction", "rounded", "cone"])
 def test_energies_of_all_blades_and_their_casing_are_balanced(name, coarse_rom):
     modes = [given(2, 0.9, coarse_rom), given(0, 3.0, coarse_rom), given(1, 0.7, coarse_rom)]
     case = rubbing(rounds=6, casing__modes=modes, stage={"count": 3} | THREE, **WITH[name])
