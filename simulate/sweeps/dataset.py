@@ -542,7 +542,7 @@ def _of_stage(run: Run) -> dict[str, Any]:
         if outcome.status in WITH_RESULT:
             samples = rounds * scene.record.samples_per_round
             spectra = np.array([spectrum(blade.u_r[-samples:, 0]) for blade in blades])
-            along = np.array([amplitude(spectra, rounds, k) for k in orders], np.float32).T
+            along = np.array([amplitude(spectra, rounds, float(k)) for k in orders], np.float32).T
         values["blade_along"] = along
     return values
 
