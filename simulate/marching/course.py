@@ -141,8 +141,12 @@ class Course:
     step: int = 0  # the last of the last one
     end: int = RUNNING
     node: int = 0
-    moves: int = 0  # edge that moves more
     trend: str = TOO_SHORT
+
+    @property
+    def moves(self) -> int:
+        """Edge that moves more."""
+        return int(np.argmax([each.most for each in self.at_edges]))
 
     @classmethod
     def begun(
@@ -203,14 +207,11 @@ class Course:
 
     def responds(self) -> float:
         """Time constant, revolutions, of the mode that responds in the last revolution."""
-        self.moves = int(np.argmax([each.most for each in self.at_edges]))
-        setup = self.setup
-        of_edge = self._last(U_R)[:, self.moves]
+        setup, of_edge = self.setup, self._last(U_R)[:, self.moves]
         return time_constant(of_edge, setup.omega, setup.Omega, setup.damping_ratio)
 
     def look(self, standing: int, tau: float) -> str:
         """Whether it is steady, from the revolutions after ``standing``; ``tau``: revolutions."""
-        self.moves = int(np.argmax([each.most for each in self.at_edges]))
         self.trend = self.at_edges[self.moves].trend(standing, tau)
         return self.trend
 
@@ -328,7 +329,7 @@ def _once(most: MostStrained, setup: Setup) -> dict[str, NDArray[Any]]:
 
 
 def row_of(done: int, kept: int, rounds: int, until: str | None) -> int:
-    """Row of ``_room`` for revolution ``done``, from 0, of ``rounds``, the last of which are kept.
+    """Row of ``room`` for revolution ``done``, from 0, of ``rounds``, the last of which are kept.
 
     Those that are not kept share the first row, which is overwritten. Where the last revolution is
     not known beforehand all take turns in the rows that are kept.

@@ -202,7 +202,7 @@ def march(scene: Scene, setup: Setup, start: AnyEnd | None = None) -> Outcome:
     in_casing = of.in_casing((first + done - 1) * steps + courses[0].step)
     finals = [blade.final for blade in blades if isinstance(blade.final, FinalState)]
     worst = _worst(blades, setup.stage.longer)
-    recorded = scene.record.of_blades(len(blades), worst)
+    recorded = {worst, *scene.record.listed(len(blades))}
     return replace(
         blades[worst],
         worst=worst,

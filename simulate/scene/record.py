@@ -1,6 +1,6 @@
 """Outputs of a scene, and the peaks around which speeds are added."""
 
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
@@ -103,12 +103,8 @@ class Record(Settings):
         "over the last",
     )
 
-    def of_blades(self, count: int, worst: int) -> Collection[int]:
-        """Blades of ``count`` whose records are kept."""
-        return {worst, *self.listed(count)}
-
     def listed(self, count: int) -> Sequence[int]:
-        """Those of ``count`` that the scene names."""
+        """Blades of ``count`` whose records are kept beside those of the worst."""
         if isinstance(self.blades, str):
             return range(count) if self.blades == "all" else ()
         return self.blades

@@ -255,48 +255,49 @@ MODES = """order,frequency_Hz,modal_mass_kg,radial,damping_ratio
 """
 
 
+def _list(kind: Any, said: Callable[[str], list[Any]], change: str, text: str) -> Case:
+    """A CSV file of a list of a ``kind``, which should hold what is ``said``."""
+
+    def read(folder: Path) -> Any:
+        holder = create_model("Scene", __base__=Settings, table=kind)
+        return check_settings(holder, {"table": folder / "t.csv"}, "scene.yaml").table
+
+    def fault(table: Any) -> str:
+        held = [
+            of.model_dump(exclude_unset=True) if isinstance(of, Settings) else of for of in table
+        ]
+        return "" if held == said(text) else "holds other numbers"
+
+    return Case("table", change, {"t.csv": text.encode()}, read, "either", fault)
+
+
 def modes() -> Cases:
     """Modes of a casing: cells, lines and columns changed."""
 
-    def case(change: str, text: str, must: str = "either") -> Case:
-        def read(folder: Path) -> Any:
-            holder = create_model("Scene", __base__=Settings, table=AnyModes)
-            return check_settings(holder, {"table": folder / "t.csv"}, "scene.yaml").table
-
-        def fault(table: Any) -> str:
-            names = [name.strip() for name in text.split("\n")[0].split(",")]
-            rows = _rows(_numeric(text))
-            said = [
-                {name: float(of) for name, of in zip(names, row, strict=True) if of.strip()}
-                for row in rows
-            ]
-            held = [mode.model_dump(exclude_unset=True) for mode in table]
-            return "" if held == said else "holds other numbers"
-
-        return Case("table", change, {"t.csv": text.encode()}, read, must, fault)
+    def said(text: str) -> list[Any]:
+        names = [name.strip() for name in text.split("\n")[0].split(",")]
+        rows = _rows(_numeric(text))
+        return [
+            {name: float(of) for name, of in zip(names, row, strict=True) if of.strip()}
+            for row in rows
+        ]
 
     rows, names = [1, 2, 3], ["", "order", "Hz", "axial", "frequency_hz", "damping_ratio "]
     changed = cell(MODES, rows, NUMBERS) | long(MODES, [0, *rows]) | cut(MODES)
-    return (changed | cell(MODES, [0], names)).map(lambda change: case(*change))
+    changed |= cell(MODES, [0], names)
+    return changed.map(lambda change: _list(AnyModes, said, *change))
 
 
 def lengths() -> Cases:
     """Lengths of the blades of a stage, one column: cells and lines changed."""
 
-    def case(change: str, text: str, must: str = "either") -> Case:
-        def read(folder: Path) -> Any:
-            holder = create_model("Scene", __base__=Settings, table=AnyLengths)
-            return check_settings(holder, {"table": folder / "t.csv"}, "scene.yaml").table
-
-        def fault(table: Any) -> str:
-            held = [float(row[0]) for row in _rows(_numeric(text))]
-            return "" if list(table) == held else "holds other numbers"
-
-        return Case("table", change, {"t.csv": text.encode()}, read, must, fault)
+    def said(text: str) -> list[Any]:
+        return [float(row[0]) for row in _rows(_numeric(text))]
 
     text, rows = "longer_um\n2.5\n0\n-3\n", [1, 2, 3]
     changed = cell(text, rows, NUMBERS) | long(text, [0, *rows]) | cut(text)
-    return (changed | cell(text, [0], ["", "um", "longer_in"])).map(lambda change: case(*change))
+    changed |= cell(text, [0], ["", "um", "longer_in"])
+    return changed.map(lambda change: _list(AnyLengths, said, *change))
 
 
 def table_cases() -> Cases:

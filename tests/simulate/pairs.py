@@ -3,7 +3,7 @@
 from types import SimpleNamespace
 
 import numpy as np
-from scipy.optimize import brentq
+from scipy.optimize import brentq, minimize_scalar
 from systems import Hooke, in_the_middle, strips
 
 from simulate.contact.compiled import for_types_of
@@ -104,6 +104,14 @@ def of_equations(Omega, k_c=0.2, zeta=0.0, mu=0.0):
 def growth(of, Omega):
     """Largest rate, 1/s."""
     return of(Omega).real.max()
+
+
+def largest_growth(of, between):
+    """Largest rate, 1/s, and where."""
+    top = minimize_scalar(
+        lambda Omega: -growth(of, Omega), bounds=between, method="bounded", options={"xatol": 1e-8}
+    )
+    return -top.fun, top.x
 
 
 def band(of, inside, outside, least=1e-7):
