@@ -17,8 +17,8 @@ from simulate.errors.model_errors import BEYOND
 from simulate.errors.neighbour import CHAOTIC, ONE_MOTION, TWO_MOTIONS
 from simulate.errors.schema import of_peaks
 from simulate.scene import DYING_OUT, GROWING, STEADY, TRENDS
-from simulate.sweeps.result_types import NO_CROSSING, numbers_of
-from workflow import margins, markdown, stress_told
+from simulate.sweeps.result_types import NO_CROSSING, Spread, numbers_of, order_name
+from workflow import margins, markdown, stage_told, stress_told
 from workflow.markdown import Number
 from workflow.stress_told import ALL
 
@@ -211,6 +211,7 @@ def _row(results: Mapping[str, Any], peak: "Peak", stress: Mapping[str, Any]) ->
         "values": values,
         "rises": stress.get("rises", ""),  # end of the airfoil towards which its stress does
         "errors": peak.errors,
+        "blades": peak.blades,  # of a stage: numbers of each
         "other": peak.other,  # of the second of two motions
     }
 
@@ -288,7 +289,8 @@ def terminal(summary: Mapping[str, Any]) -> str:
     """The same for a terminal, in columns."""
     parts = []
     for scene in summary["scenes"]:
-        lines = [line for cells in shown(scene) for line in (*columns(*cells), "")]
+        tables = [cells for cells in shown(scene) if cells[1]]
+        lines = [line for cells in tables for line in (*columns(*cells), "")]
         parts += ["", f"{scene['scene']}: {about(scene)}", *lines, *notes(scene)]
     return "\n".join([*parts, *left_out(summary)])
 
@@ -334,7 +336,10 @@ def columns(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
 
 
 def shown(scene: Mapping[str, Any]) -> list[tuple[list[str], list[list[str]]]]:
-    """Heads and rows of a scene's tables: motion and wear, then loads; without empty columns."""
+    """Heads and rows of a scene's tables: motion and wear, loads, blades of a stage.
+
+    Without empty columns.
+    """
     kept, rows = known_columns(row["values"] for row in scene["rows"]), scene["rows"]
     known = of_peaks()
     motion, loads = (
@@ -371,7 +376,34 @@ def shown(scene: Mapping[str, Any]) -> list[tuple[list[str], list[list[str]]]]:
                 for row in rows
             ],
         ),
+        (
+            stage_told.HEADS,
+            [
+                [*(at if i == 0 else [""] * len(at)), column.head, *_spread(column, spread)]
+                for row in rows
+                for at in [[*_names(row), margins.speed(row)]]
+                for i, (column, spread) in enumerate(_over_blades(row))
+            ],
+        ),
     ]
+
+
+def _over_blades(row: PeakRow) -> list[tuple[Column, Spread]]:
+    """Each number that is told of the blades of a stage, and its spread; none of one blade."""
+    numbers = row["blades"]["numbers"] if row["blades"] else {}
+    return [
+        (column, Spread.of(numbers[column.name]))
+        for column in all_columns()
+        if column.name in numbers
+    ]
+
+
+def _spread(column: Column, spread: Spread) -> list[str]:
+    """Its cells: the most and its blade, the median, the least and its blade."""
+    most, median, least = (
+        column.number(value).shown for value in (spread.most, spread.median, spread.least)
+    )
+    return [most, str(spread.of_most), median, least, str(spread.of_least)]
 
 
 def _names(row: PeakRow) -> list[str]:
@@ -435,7 +467,7 @@ def about(scene: Mapping[str, Any]) -> str:
 def notes(scene: Mapping[str, Any]) -> list[str]:
     """Crossings, ends of the sweep, operating lines, unknown parts, cost of uncertainties."""
     campbell = scene["operating"]
-    lines = [*_without_peaks(scene), *crossings_and_ends(scene)]
+    lines = [*_without_peaks(scene), *_blades(scene), *crossings_and_ends(scene)]
     lines += margins.fed(scene["whirls"])
     for name in campbell["lines"]:
         lines += margins.nearest(campbell, scene["margins"], name)
@@ -476,6 +508,16 @@ def _without_peaks(scene: Mapping[str, Any]) -> list[str]:
     ] * bool(free)
 
 
+def _blades(scene: Mapping[str, Any]) -> list[str]:
+    """Which blades of a stage rub at each peak, and the worst of them."""
+    return [
+        f"{order_name(row['k']) or 'Largest response'} at {row['rpm']:.0f} rpm: "
+        f"{stage_told.worst(row['blades'])}."
+        for row in scene["rows"]
+        if row["blades"]
+    ]
+
+
 def crossings_and_ends(scene: Mapping[str, Any]) -> list[str]:
     """Linear crossings, and results at the ends of the sweep."""
     seen = {end["over_f1"]: _seen(end) for end in scene["ends"]}
@@ -510,7 +552,9 @@ def over_gap(row: PeakRow) -> list[str]:
 
 def csv(summary: Mapping[str, Any]) -> str:
     """One row for each peak, units in the header; cells are empty where nothing is known."""
-    records = [_record(scene, row) for scene in summary["scenes"] for row in scene["rows"]]
+    of_all = [(scene, row) for scene in summary["scenes"] for row in scene["rows"]]
+    staged = any(row["blades"] for _, row in of_all)
+    records = [_record(*of) | (_of_blades(of[1]) if staged else {}) for of in of_all]
     return csv_text([*records[:1], *(record.values() for record in records)])
 
 
@@ -561,6 +605,27 @@ def _record(scene: Mapping[str, Any], row: PeakRow) -> dict[str, Any]:
             f"{column.name}{what} ({column.unit})": _digits(row[key].get(column.name), column.scale)
             for column in all_columns()
             for what, key in (("", "values"), (" +-", "errors"), (" other", "other"))
+        },
+    }
+
+
+def _of_blades(row: PeakRow) -> dict[str, Any]:
+    """Cells of a row on the blades of a stage; of one blade its number alone."""
+    of = row["blades"] or {"worst": 0, "rub": [], "longer": [0.0], "frequencies": [0.0]}
+    worst, spreads = of["worst"], {column.name: spread for column, spread in _over_blades(row)}
+    return {
+        "blades": len(of["longer"]),
+        "blades that rub": " ".join(map(str, of["rub"])),
+        "worst blade": worst,
+        "worst blade longer (um)": _digits(of["longer"][worst], 1e6),
+        "worst blade frequencies (%)": _digits(of["frequencies"][worst], 1e2),
+        **{
+            f"{column.name} {what} of blades ({column.unit})": _digits(
+                getattr(spreads.get(column.name), what, None), column.scale
+            )
+            for column in all_columns()
+            if of_peaks()[column.name].by_blade
+            for what in ("most", "median", "least")
         },
     }
 

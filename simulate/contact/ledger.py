@@ -32,7 +32,8 @@ from simulate.contact.compiled import compiled, compiled_not_inlined
 from simulate.contact.strips import covered_part, offset, part_ahead
 
 CASING, PLASTIC, RELEASED, WORK, DAMPING, FRICTION, HEAT, ON_CASING = range(8)
-ENERGIES = 8
+WORN = 8  # beside the energies: volume worn off, m3
+SUMS = 9
 
 
 @dataclass(frozen=True)

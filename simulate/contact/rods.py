@@ -37,6 +37,7 @@ from simulate.contact.compiled import FIRST, compiled, records
 from simulate.contact.ledger import (
     CASING,
     PLASTIC,
+    WORN,
     book_released,
     elastic_energy,
     plastic_work,
@@ -393,7 +394,7 @@ def press(strips, covered, eps_p, i, w, w_from, lean, lean_from, energies):
     strip, law, nu = covered.strips[i], strips.law, strips.d.size
     j, volume = (strip.at + strip.low) % nu, strips.area[i] * strips.thickness
     per_l = 1 / strips.thickness
-    t_N = t_T = moment = deepest = stored = worn = supplied = 0.0
+    t_N = t_T = moment = deepest = stored = worn = deeper = supplied = 0.0
     first = eps_p[i, j]  # of a footprint all around, which ends on the rod on which it begins
     for k in range(strip.low, strip.high):
         rod, before = covered.rods[i, k], eps_p[i, j] if k < nu else first
@@ -416,6 +417,7 @@ def press(strips, covered, eps_p, i, w, w_from, lean, lean_from, energies):
             received = rod.stored + plastic_work(law, before, after)
             rod.stored = psi(law, eps, kept) if part > 0.0 and eps > 0.0 else 0.0
             supplied += part * (rod.stored + wear - received)
+        deeper += kept - eps_p[i, j]
         eps_p[i, j] = kept  # Eq. (16)
         worn += wear
         supplied += (1 - part) * wear  # it wears whole: the casing pays for the uncovered part
@@ -424,6 +426,7 @@ def press(strips, covered, eps_p, i, w, w_from, lean, lean_from, energies):
     strip.stored = stored
     # of liner that bears in no step, too (``lengthened``)
     energies[PLASTIC] += worn * volume * strips.lengthened[i]
+    energies[WORN] += deeper * volume
     energies[CASING] += (supplied + (strips.lengthened[i] - 1) * worn) * volume
     area = strips.area[i]  # A_i of Eq. (17)
     return t_N * area, t_T * area, moment * area, deepest

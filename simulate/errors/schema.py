@@ -37,6 +37,7 @@ class Quantity:
     at_peak: str = ""  # its name there, if it is another one
     exact: bool = False  # whether second runs leave it as it is: it has no ±
     follows: bool = False  # whether it follows from another one, which has a part in verdicts
+    by_blade: bool = False  # whether it is told of each blade of a stage, too
     # In the summary:
     head: str = ""  # of its column, with the unit; without it there is none
     shown: tuple[str, float] = "1", 1.0  # its unit in CSV files, and the scale of that from SI
@@ -65,6 +66,7 @@ QUANTITIES = (  # in the order of the columns
         of=lambda run: run.amplitude,
         record="spectrum_rounds",
         peak=MOTION,
+        by_blade=True,
         head="amplitude µm",
         shown=UM,
         goes_on=True,
@@ -82,6 +84,7 @@ QUANTITIES = (  # in the order of the columns
         of=lambda run: run.outcome.each.largest[0],
         design=np.float32,
         peak=MOTION,
+        by_blade=True,
         head="largest µm",
         shown=UM,
         legend=(
@@ -196,10 +199,13 @@ QUANTITIES = (  # in the order of the columns
         unit="m",
         meaning="mean worn depth over the area that the tip sweeps, per passage of a blade",
         of=lambda run: worn_per_pass(
-            run.outcome.each.worn, *run.strips, len(run.outcome.each_blade)
+            run.outcome.wear_share * run.outcome.each.worn,
+            *run.strips,
+            len(run.outcome.each_blade),
         ),
         peak=CONTACT,
         follows=True,
+        by_blade=True,
         head="worn µm per pass",
         shown=("um per pass", 1e6),
         loads=True,
@@ -220,6 +226,7 @@ QUANTITIES = (  # in the order of the columns
         design=np.float32,
         peak=CONTACT,
         at_peak="force",
+        by_blade=True,
         head="mean force N, whole chord",
         shown=NEWTON,
         loads=True,
@@ -237,6 +244,7 @@ QUANTITIES = (  # in the order of the columns
         record="contact_force",
         design=np.float32,
         peak=CONTACT,
+        by_blade=True,
         head="peak force N, an eighth of it",
         shown=NEWTON,
         loads=True,

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from simulate.contact.compiled import compiled, compiled_sums
-from simulate.contact.ledger import DAMPING, ENERGIES
+from simulate.contact.ledger import DAMPING, SUMS
 from simulate.marching import piecewise_exact
 from simulate.marching.modal import Motion, Scheme, at_rest, padded_rows, predict
 from simulate.marching.moving_casing import Moving, book
@@ -49,7 +49,7 @@ class Common(NamedTuple):
     pairs: NDArray[np.int64] = np.zeros(0, np.int64)  # first column of each pair
     cosine: NDArray[np.float64] = np.zeros((0, 0))  # (N, pairs), of n theta_j
     sine: NDArray[np.float64] = np.zeros((0, 0))  # (N, pairs)
-    energies: NDArray[np.float64] = np.zeros(ENERGIES)  # J, its damping
+    energies: NDArray[np.float64] = np.zeros(SUMS)  # its damping, J
 
 
 @compiled
@@ -210,5 +210,5 @@ def common_casing(
         pairs=pairs,
         cosine=np.cos(angle),
         sine=np.sin(angle),
-        energies=np.zeros(ENERGIES),
+        energies=np.zeros(SUMS),
     )

@@ -18,6 +18,7 @@ from simulate.contact.ledger import (
     PLASTIC,
     RELEASED,
     WORK,
+    WORN,
     Ledger,
 )
 from simulate.contact.places import SHARES, volume_of
@@ -88,6 +89,7 @@ class Outcome:
     # (revolutions, shares, nu), m, worn depth of each eighth of the chord after each
     wear_by_round: NDArray[np.float32] = field(default_factory=lambda: np.empty(0, np.float32))
     recorded: bool = True  # with its records over time
+    wear_share: float = 1.0  # of the volume that all blades wore in the run
     # of a stage, whose worst blade the above is: its number, the outcomes of all (of those that are
     # not recorded without their records), and the energies of all with the casing's
     worst: int = 0
@@ -204,6 +206,11 @@ class Course:
         """Records of the last revolution, U_R or STATES."""
         array, scene = self.kept[of], self.scene
         return array[row_of(self.done - 1, len(array) - 1, scene.rounds, scene.until)]
+
+    @property
+    def wore(self) -> float:
+        """Volume, m3, that the blade itself wore off the liner."""
+        return float(self.state.energies[WORN])
 
     def responds(self) -> float:
         """Time constant, revolutions, of the mode that responds in the last revolution."""

@@ -13,7 +13,7 @@ from simulate.contact.compiled import (
     compiled_sums,
 )
 from simulate.contact.interface_force import Solver, new_solver
-from simulate.contact.ledger import DAMPING, ENERGIES
+from simulate.contact.ledger import DAMPING, SUMS
 from simulate.contact.rods import Covered, nothing_covered
 from simulate.contact.strips import (
     Strips,
@@ -44,7 +44,7 @@ class State(NamedTuple):
     covered: Covered
     solver: Solver
     eps_p: NDArray[np.float64]  # (strips, nu), plastic strains
-    energies: NDArray[np.float64]  # (ENERGIES,), J, sums of the ledger
+    energies: NDArray[np.float64]  # (SUMS,), sums of the ledger, J; volume worn off, m3
     slowest: NDArray[np.float64]  # (1,), least sliding speed with friction in contact, over Omega r
 
 
@@ -56,7 +56,7 @@ def at_start(scheme: Scheme, strips: Strips) -> State:
         nothing_covered(strips),
         new_solver(nodes, len(strips.rows)),
         np.zeros((nodes, nu)),
-        np.zeros(ENERGIES),
+        np.zeros(SUMS),
         np.full(1, np.inf),
     )
 

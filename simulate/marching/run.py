@@ -196,7 +196,10 @@ def march(scene: Scene, setup: Setup, start: AnyEnd | None = None) -> Outcome:
         "wear": setup.strips.thickness * courses[0].state.eps_p,
         "wear_by_round": np.array(by_round),
     }
-    blades = [course.outcome(tau, whole, **of_liner) for course in courses]
+    wore = sum(course.wore for course in courses) or 1.0
+    blades = [
+        course.outcome(tau, whole, wear_share=course.wore / wore, **of_liner) for course in courses
+    ]
     if setup.stage is None:
         return blades[0]
     in_casing = of.in_casing((first + done - 1) * steps + courses[0].step)
@@ -206,6 +209,7 @@ def march(scene: Scene, setup: Setup, start: AnyEnd | None = None) -> Outcome:
     return replace(
         blades[worst],
         worst=worst,
+        wear_share=1.0,
         trend=next((of.trend for of in [blades[worst], *blades] if of.trend != STEADY), STEADY),
         blades=[
             blade if j in recorded else blade.without_records(least * samples)

@@ -24,7 +24,7 @@ from simulate.scene import LEADING, Scene, side_bands
 from simulate.signals import amplitude, leading_gap, maxima
 from simulate.sweeps.crossings import crossing
 from simulate.sweeps.dataset import scene_of
-from simulate.sweeps.result_types import NO_CROSSING, Course, mode_name, order_name
+from simulate.sweeps.result_types import NO_CROSSING, Course, OfBlades, mode_name, order_name
 
 # Speeds over the crossing at which a peak may lie: contact stiffens, a tangential force may soften
 STIFFENED, SOFTENED, HIGHEST = 0.97, 0.93, 1.4
@@ -65,6 +65,7 @@ class Peak:
     parts: dict[str, Numbers] = field(
         default_factory=dict, hash=False
     )  # relative changes by second run
+    blades: OfBlades | None = field(default=None, hash=False)  # of a stage
     runs: int = 0  # made for it
     seconds: float = 0.0  # CPU time
 

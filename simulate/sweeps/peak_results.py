@@ -52,6 +52,7 @@ from simulate.signals import gaps_at_ends, leading_gap, leading_wear, lobe_count
 from simulate.sweeps.continued import before
 from simulate.sweeps.dataset import checks, course, scene_of, statuses
 from simulate.sweeps.peak import Peak, Responses, peaks_or_largest, rise
+from simulate.sweeps.result_types import OfBlades
 from simulate.sweeps.whirls import whirls
 
 JUMP_FROM = 0.05  # relative change between two models from which a jump is looked for
@@ -186,6 +187,7 @@ def to_march(runs: xr.Dataset, stress: Mapping[str, Any] | None = None) -> Scene
     its motion, and for the damage all states.
     """
     scene, unused = scene_of(runs), dict.fromkeys(OF_LAST_ROUNDS)
+    blades = "all" if scene.stage else "worst"
     if stress:
         unused["motion"] = scene.record.motion
         if (stress["fatigue"] or {}).get("slope_k"):
@@ -193,7 +195,7 @@ def to_march(runs: xr.Dataset, stress: Mapping[str, Any] | None = None) -> Scene
     return scene.but(
         verify={"share": 0.0, "predictable": False},
         peaks=None,
-        record=unused | {"contact_force": True, "end": False},
+        record={**unused, "contact_force": True, "end": False, "blades": blades},
     )
 
 
@@ -246,14 +248,15 @@ def _with_errors(
 
     ``stress``: as of ``results``.
     """
-    runs, at = [], at_node(stress, peak.index) if stress else None
+    runs, at = [ITSELF], at_node(stress, peak.index) if stress else None
+    run = case.march()
+    first = read(run, peak, at)
 
     def numbers_of(other: Neighbour, T: NDArray[np.float64] | None = None) -> Numbers:
         """Numbers of a second run, which is counted; u = T u' of its displacements u'."""
         runs.append(other)
         return at_peak(case.neighbour(other), peak, through(at, T))
 
-    first = numbers_of(ITSELF)
     by_twin = {"twin": change(first, numbers_of(TWIN))}
     by_models, both = _of_models(first, numbers_of, case, model_error)
     parts = peak.parts | by_twin | by_models | _of_fineness(first, numbers_of, case)
@@ -266,6 +269,7 @@ def _with_errors(
         peak,
         verdict=CHAOTIC if chaotic else TWO_MOTIONS if both else ONE_MOTION,
         numbers=first,
+        blades=of_blades(run, peak) if case.scene.stage else None,
         errors={
             name: abs(value)
             * hypot(*filter(isfinite, (part.get(name, 0.0) for part in parts.values())))
@@ -350,21 +354,43 @@ def case_of(runs: xr.Dataset, scene: Scene, rom: Rom, peak: Peak) -> Case:
 
 
 def at_peak(case: Case, peak: Peak, stress: NodeStress | None = None) -> Numbers:
+    """Numbers of the run of a case along the order of a peak, as of ``read``."""
+    return read(case.march(), peak, stress)
+
+
+def read(run: Run, peak: Peak, stress: NodeStress | None = None) -> Numbers:
     """Numbers of a run along the order of a peak, at its place; none without result.
 
     Those of contact where there is any, of ``stress`` where it is known.
     """
-    run = case.march()
     if run.outcome.status not in WITH_RESULT:
         return {}
     values = numbers(run, peak.k, peak.place if peak.k else None)
-    kinds = {MOTION, *[CONTACT] * case.scene.liner.law.touches}
+    kinds = {MOTION, *[CONTACT] * run.scene.liner.law.touches}
     told = {
         name: values[one.name]
         for name, one in of_peaks().items()
         if one.peak in kinds and one.name in values
     }
     return told | (stress_of(run, stress) if stress else {})
+
+
+def of_blades(run: Run, peak: Peak) -> OfBlades:
+    """Numbers of each blade of a stage in the run at a peak."""
+    blades, stage = run.outcome.blades, known(run.scene.stage, "stage")
+    each = [read(replace(run, outcome=blade), peak) for blade in blades]
+    by_blade = [name for name, one in of_peaks().items() if one.by_blade]
+    return {
+        "worst": run.outcome.worst,
+        "rub": [j for j, blade in enumerate(blades) if blade.contact_share],
+        "longer": known(run.setup.stage, "stage").longer.tolist(),
+        "frequencies": stage.relative.tolist(),
+        "numbers": {
+            name: [values[name] for values in each]
+            for name in by_blade
+            if all(name in values for values in each)
+        },
+    }
 
 
 def at_node(stress: Mapping[str, Any], speed: int) -> NodeStress | None:

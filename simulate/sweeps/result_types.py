@@ -1,7 +1,8 @@
 """Types of values in files of results. Light: Snakemake imports the summary, which has them."""
 
 from collections.abc import Sequence
-from typing import TypedDict
+from statistics import median
+from typing import NamedTuple, Self, TypedDict
 
 NO_CROSSING = "no linear crossing explains it"
 
@@ -40,6 +41,36 @@ class Course(TypedDict, total=False):
     grows: float  # share by which a growing swing rises in ``grows_in`` revolutions more
     grows_in: int
     place: float  # xi of the motion that is told, on a casing that tapers
+
+
+class OfBlades(TypedDict):
+    """Numbers of each blade of a stage in one run."""
+
+    worst: int  # its number
+    rub: Sequence[int]  # those that touch the casing
+    longer: Sequence[float]  # m, of each
+    frequencies: Sequence[float]  # relative changes of each
+    numbers: dict[str, Sequence[float]]  # of each, by the name of the number
+
+
+class Spread(NamedTuple):
+    """A number over the blades: of the blade that has most, of half of them, of that with least."""
+
+    most: float
+    of_most: int  # number of that blade
+    median: float
+    least: float
+    of_least: int
+
+    @classmethod
+    def of(cls, values: Sequence[float]) -> Self:
+        """Spread of the ``values`` of all blades.
+
+        >>> Spread.of([2.0, 5.0, 1.0, 4.0])
+        Spread(most=5.0, of_most=1, median=3.0, least=1.0, of_least=2)
+        """
+        ends = [(end(values), values.index(end(values))) for end in (max, min)]
+        return cls(*ends[0], median(values), *ends[1])
 
 
 class CriticalSpeed(TypedDict):

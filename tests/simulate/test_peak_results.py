@@ -4,13 +4,16 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from runs import swept
+from runs import set_up, swept
 from scenes import of_steps, scene
 
 from simulate.errors.companion import Fineness
 from simulate.errors.model_errors import ModelError
 from simulate.errors.neighbour import CHAOTIC, ONE_MOTION, TWO_MOTIONS
 from simulate.errors.neighbours import raised
+from simulate.errors.observables import numbers
+from simulate.errors.run import Case
+from simulate.errors.schema import of_peaks
 from simulate.loads import torque
 from simulate.marching import prepare
 from simulate.sweeps.over_speeds import as_sweep, at_speeds
@@ -94,6 +97,22 @@ HARD = {
     "speeds": {"over_f1": [0.35]},  # departs by 3 % at least, whatever the last digits of the model
     "verify__predictable": True,  # heard before the energy that these steps lose
 }
+
+
+def test_a_peak_tells_each_blade_of_a_stage(coarse_rom):
+    """Over an elastic liner they are single runs, of their lengths and frequencies."""
+    stage = {"count": 3, "longer_um": [0, 2, -15], "frequencies": [0, 0, 0.01]}
+    case = scene(**STEEP | {"rounds": 8, "record": WORN["record"], "stage": stage})
+    runs = swept(case, coarse_rom)
+    (peak,) = results(runs, coarse_rom, CALM)
+    single, found, setup = case.but(stage=None), peak.blades, set_up(case, coarse_rom, peak.Omega_c)
+    by_blade = {name: one.name for name, one in of_peaks().items() if one.by_blade}
+    assert found["numbers"].keys() == by_blade.keys() and found["rub"] == [0, 1]
+    for j, (um, share) in enumerate(zip(stage["longer_um"], stage["frequencies"], strict=True)):
+        alone = numbers(Case(single, coarse_rom, setup.of_blade(j)).march(), peak.k)
+        of_one = {by_blade[name]: values[j] for name, values in found["numbers"].items()}
+        assert of_one == pytest.approx({name: alone[name] for name in of_one}, rel=1e-12)
+        assert (found["longer"][j], found["frequencies"][j]) == pytest.approx((1e-6 * um, share))
 
 
 def test_what_follows_from_other_numbers_has_no_part_in_verdicts():

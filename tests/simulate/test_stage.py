@@ -15,13 +15,13 @@ from test_moving_casing import WITH, given
 from geometry.base import SettingsError
 from rom.coarser import coarser
 from simulate.contact.compiled import for_types_of
-from simulate.contact.ledger import ON_CASING
+from simulate.contact.ledger import ON_CASING, WORN
 from simulate.contact.places import by_share
 from simulate.contact.ramp import smooth
 from simulate.errors.companion import with_errors
 from simulate.errors.resolution import check_resolution
 from simulate.errors.run import Case
-from simulate.loads import torque_of_rounds
+from simulate.loads import torque_of_rounds, worn_volume
 from simulate.marching import (
     EndOfStage,
     FinalState,
@@ -31,6 +31,7 @@ from simulate.marching import (
     march,
 )
 from simulate.marching.common_casing import RIGID
+from simulate.marching.course import Course
 from simulate.marching.disk import Disk, Turned, does_not_slide, leg_of, march_disk, stacked
 from simulate.marching.kernel import Recorded, at_start
 from simulate.marching.status import judged
@@ -56,7 +57,10 @@ def rubbing(**changes):
 
 
 def rigid_blades(rounds, per_blade=4):
-    """Forces (rounds, blades, steps), N, of rigid blades on single rods, one rod in a step."""
+    """Rigid blades on single rods, one rod in a step.
+
+    Forces (rounds, blades, steps), N; plastic strains of the rods; volume that each blade wore.
+    """
     blades, steps = len(STRAINS), per_blade * len(STRAINS)
     scheme = central.coefficients(np.array([1.0]), np.zeros((1, 1)), 0.0, 0.1)
     one = strips(Parameters(E, K, 0.0), 0.0, np.ones(steps), advance=1.0)
@@ -81,7 +85,7 @@ def rigid_blades(rounds, per_blade=4):
         arguments = disk, one, state, recorded, smooth(0.0), np.inf, done, steps, turned
         for_types_of(march_disk, *arguments)(*arguments)
         found.append(np.diff(pushed[..., 0], axis=1, prepend=0.0))
-    return np.array(found), state.eps_p[0]
+    return np.array(found), state.eps_p[0], state.energies[:, WORN]
 
 
 def test_a_rod_meets_rigid_blades_in_decreasing_numbers():
@@ -89,7 +93,7 @@ def test_a_rod_meets_rigid_blades_in_decreasing_numbers():
 
     At half the strains: at a strain of 1 the liner is worn through.
     """
-    forces, eps_p = rigid_blades(rounds=3)
+    forces, eps_p, wore = rigid_blades(rounds=3)
 
     def on_rod(r):
         """Forces (rounds, blades), as it meets them."""
@@ -100,6 +104,14 @@ def test_a_rod_meets_rigid_blades_in_decreasing_numbers():
     np.testing.assert_allclose(on_rod(13), expected, atol=1e-6)
     np.testing.assert_allclose(on_rod(1), [np.roll(last, 1)] * 3, atol=1e-6)
     np.testing.assert_allclose(2 * eps_p, E / (E + K), rtol=1e-12)
+    # each wears what is left of its own depth by those that the rod met before
+    reach, expected = STRAINS / 2 * E / (E + K), np.zeros(len(STRAINS))
+    for first in range(4):
+        worn = 0.0
+        for j in (first - np.arange(4)) % 4:
+            expected[j] += 4 * max(reach[j] - worn, 0.0)
+            worn = max(worn, reach[j])
+    np.testing.assert_allclose(wore, expected, rtol=1e-12)
 
 
 @pytest.mark.parametrize("scheme", SCHEMES)
@@ -144,10 +156,35 @@ def test_two_equal_blades_over_an_even_casing_wear_alike(coarse_rom):
     outcome = marched(rubbing(liner__rods_per_round=2040, rounds=4, stage={"count": 2}), coarse_rom)
     half = np.roll(outcome.wear, 1020, axis=1)
     np.testing.assert_allclose(outcome.wear, half, rtol=0, atol=1e-12 * half.max())
+    assert [of.wear_share for of in (outcome, *outcome.blades)] == pytest.approx([1.0, 0.5, 0.5])
     one, other = (blade.each for blade in outcome.blades)
     np.testing.assert_allclose(one.extremes, other.extremes, rtol=1e-12)
     alone = marched(rubbing(liner__rods_per_round=2040, rounds=4), coarse_rom)
     assert not np.allclose(outcome.wear, alone.wear, rtol=1e-2)
+
+
+@pytest.mark.parametrize("name", ["flat", "friction"])
+def test_blades_wear_what_the_liner_loses(name, coarse_rom, monkeypatch):
+    """Also one that begins over the liner of another run."""
+    wore, outcome_of = [], Course.outcome
+
+    def outcome(course, *given, **of_liner):
+        """That of the course, whose wear is kept."""
+        wore.append(course.wore)
+        return outcome_of(course, *given, **of_liner)
+
+    monkeypatch.setattr(Course, "outcome", outcome)
+    case = rubbing(stage={"count": 12} | UNEVEN, record__end=True, **WITH[name])
+    setup = set_up(case, coarse_rom)
+    places, begun = setup.places, march(case, setup)
+    went_on = march(case, setup, begun.final)
+    parts = [begun.wear, went_on.wear - begun.wear]
+    for wear, of_run in zip(parts, np.split(np.array(wore), 2), strict=True):
+        lost = worn_volume(wear, places.width, places.radius)
+        assert of_run.sum() == pytest.approx(lost, rel=1e-9)
+    shares = [blade.wear_share for blade in begun.blades]
+    np.testing.assert_allclose(shares, np.array(wore[:12]) / sum(wore[:12]))
+    assert min(shares) < 0.01 < 0.2 < max(shares)
 
 
 @pytest.mark.parametrize("name", ["flat", "friction", "travelling"])

@@ -8,13 +8,14 @@ import shutil
 
 import numpy as np
 import pytest
-from runs import of_paper
+from runs import of_paper, swept
 from scipy.spatial import cKDTree
 
 from fem.fatigue import von_mises
 from fem.fields import fields
 from simulate.signals import leading_gap
 from simulate.sweeps.crossings import critical
+from simulate.sweeps.dataset import scene_of
 from workflow.explore import page as pack
 from workflow.explore.blade import moving
 from workflow.explore.page import html
@@ -302,6 +303,42 @@ def test_a_browser_draws_everything_and_answers(opened):
     assert opened.data("orders", f"data[{ORDERS.index(13)}].visible") is True
 
 
+@pytest.fixture(scope="module")
+def staged(coarse_rom):
+    """Three blades at two speeds, the second one long."""
+    stage = {"count": 3, "longer_um": [0, 4, 0], "frequencies": [0, 0, 0.01]}
+    case = scene_of(of_paper(coarse_rom, SPEEDS[:1], 4)).but(
+        stage=stage, speeds={"over_f1": [0.34, 0.36]}
+    )
+    return Response(swept(case, coarse_rom), coarse_rom)
+
+
+def test_a_blade_of_a_stage_is_chosen(staged, browser, tmp_path):
+    """In the list or by its bar; its amplitudes are those of the sweep, the worst one is named."""
+    opened = Opened(browser, written(tmp_path, staged))
+    sweep, k, gap = staged.sweep, 4, leading_gap(staged.sweep)
+    trace = f"data[{staged.orders.index(k)}].y[0]"
+
+    def is_of(blade):
+        """Whether the curve of an order is that of the blade."""
+        along = sweep["blade_along"].sel(order=k, blade=blade)[0].item() / gap
+        return opened.data("orders", trace) == pytest.approx(along, rel=1e-3)
+
+    worst = int(sweep["worst"][0])
+    said = opened.page.text_content("#blade_says")
+    assert said.startswith(f"blade {worst}, the worst at this speed: length ") and is_of(worst)
+    assert opened.data("by_blade", "data[0].y.length") == 3
+    other = (worst + 1) % 3
+    opened.page.select_option("#of_blade", str(other))
+    assert is_of(other)
+    said = opened.page.text_content("#blade_says")
+    changes = f"length +{[0, 4, 0][other]:.2f} µm, frequencies +{[0, 0, 1][other]:.2f} %"
+    assert said.startswith(f"blade {other}: {changes}; rubs, largest displacement ")
+    opened.click("by_blade", (worst + 0.5) / 3)
+    opened.page.wait_for_function(f"document.getElementById('of_blade').value == '{worst}'")
+    assert is_of(worst) and opened.quiet()
+
+
 def test_the_blade_moves_turns_and_stops(opened):
     opened.page.select_option("#colour", "stress")
     assert "MPa" in opened.page.text_content("#range")
@@ -352,7 +389,7 @@ def test_units_are_switched_and_numbers_saved(opened, response, tmp_path):
     assert heads == '"curve","speed (rpm)","amplitude ‖Y‖ (µm)"'
     name, speed, amplitude = first.split(",")
     assert name == '"EO 2"' and float(speed) == pytest.approx(60 * f1 * SPEEDS[0], rel=1e-5)
-    along = 10 ** arrays(response)["along"][0, 0]
+    along = 10 ** arrays(response)["along"][0, response.orders.index(2)]
     assert float(amplitude) == pytest.approx(gap * along, rel=1e-3)  # 16 bits
     for picture in ("#orders + .save button:has-text('PNG')", "#png"):
         with opened.page.expect_download() as saved:

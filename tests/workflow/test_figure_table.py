@@ -20,11 +20,12 @@ from workflow.figures import table
 ROWS = table.read(*TABLES)
 
 
-def scene(blade="thin", design=None, gaps="running", count=9, touches=True, **record):
+def scene(blade="thin", design=None, gaps="running", count=9, touches=True, stage=None, **record):
     return Made(
         blade=blade,
         directions="r",
         design=design,
+        stage=stage,
         gaps=Made(vary=gaps == "rest"),
         speeds=Made(count=count),
         liner=Made(law=Made(touches=touches)),
@@ -38,6 +39,7 @@ SCENES = {
     "soft": scene(),
     "hard": scene(wear=True, gaps="rest"),
     "free": scene("given", touches=False),
+    "staged": scene("given", stage=Made(count=2)),
     "drawn": scene(design="five.yaml"),
     "listed": scene(design="rows.csv"),
     "paper-e1": scene("paper", wear=True),
@@ -84,6 +86,17 @@ def test_files_are_those_of_the_scenes():
     assert loads["stress"] == ["results/thin/hard/stress.json"]
 
 
+def test_only_a_design_over_seeds_has_their_distribution(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "workflow/scenes").mkdir(parents=True)
+    for name, head in (("seeds", "stage.longer_um.seed"), ("rows", "liner.law.K")):
+        (tmp_path / f"workflow/scenes/{name}.csv").write_text(f"{head}\n1\n2\n")
+    monkeypatch.setitem(SCENES, "seeds", scene("given", design="seeds.csv"))
+    monkeypatch.setitem(SCENES, "rows", scene("given", design="rows.csv"))
+    drawn = figures_of("seeds", "rows").configured(lambda row: row.part == table.DELIVERED)
+    assert drawn == ["design-seeds", "design-rows", "distribution-seeds"]
+
+
 def test_a_figure_marks_the_operating_speeds_of_its_blade():
     of = figures_of("soft", "paper-e1")
     assert of.given("spectra-{scene}", {"scene": "soft"}) == {"operating": {"design": 9e3}}
@@ -106,6 +119,7 @@ def test_a_figure_marks_the_operating_speeds_of_its_blade():
             ],
         ),
         (["free"], ["spectra-free"]),
+        (["staged"], ["spectra-staged", "blades-staged", "loads-given"]),
         (["drawn"], ["campbell-thin", "modes-thin", "design-drawn", "sensitivity-drawn"]),
         (["listed"], ["campbell-thin", "modes-thin", "design-listed"]),
         (

@@ -48,6 +48,7 @@ from simulate.sweeps.dataset import save as save_sweep
 from simulate.sweeps.peak import Peak, along_order
 from simulate.sweeps.peak_results import asked, ends
 from workflow.figures import (
+    blades,
     campbell,
     designs,
     loads,
@@ -364,6 +365,33 @@ def design_rows():
     return xr.Dataset(variables, {"row": [1, 2, 3], "order": [4, 6]})
 
 
+@pytest.fixture
+def over_seeds(design_rows):
+    """Thirty draws of lengths with each of two standard deviations: amplitudes of 1 to 30 um."""
+    many = xr.concat([design_rows.isel(row=[0])] * 60, "row").drop_vars("liner.law.kind")
+    given = {"stage.longer_um.std_um": np.repeat([1.0, 3.0], 30), "stage.longer_um.seed": DRAWS}
+    many = many.assign({name: ("row", of, {"long_name": "given"}) for name, of in given.items()})
+    return many.assign(
+        {"largest_amplitude": ("row", 1e-6 * (1 + DRAWS % 30)), "row": 1 + DRAWS}
+    ).drop_vars("liner.law.K")
+
+
+DRAWS = np.arange(60)
+
+
+@pytest.fixture
+def of_blades(sweep, rom):
+    """Three blades, the second of which has half of the amplitudes, the third a quarter."""
+    scene = Scene.load(ROOT / "workflow/scenes/hand-e1.yaml").but(stage={"count": 3})
+    along = np.linspace(2.0, 0.5, len(SPEEDS))[:, None, None] * [[[1.0], [0.5], [0.25]]]
+    variables = {
+        "blade_along": (("speed_over_f1", "blade", "order"), GAP * along),
+        "worst": ("speed_over_f1", np.zeros(len(SPEEDS), int)),
+    }
+    staged = sweep.assign(variables).assign_coords(blade=range(3))
+    return Response(staged.assign_attrs(attrs_of(scene, "mine")), rom)
+
+
 def stressed(worst=None, at=(0, 0, 0), **fields):
     """A bar of one by one by three, x the long side, its tip the contact, with ``stress.vtu``'s."""
     bar = pv.ImageData(dimensions=(4, 2, 2)).cast_to_unstructured_grid()
@@ -427,6 +455,8 @@ FIGURES = {
     ),
     "design": lambda get: designs.draw(get("design_rows")),
     "sensitivity": lambda get: designs.sensitivity(*read(designs, get("sobol_rows"))),
+    "distribution": lambda get: designs.distribution(get("over_seeds")),
+    "blades": lambda get: blades.draw(get("of_blades")),
     "stress": lambda get: stress.draw(*AT_ONE_SIDE),
     "mesh": lambda get: mesh_convergence.draw(get("of_meshes")),
     "stability": lambda get: stability.draw([*ENGAGED, *INTERMITTENT]),
@@ -955,6 +985,33 @@ def test_an_operating_line_is_at_its_speed(seen, rom, check):
     diagram = campbell.draw(rom, check, operating=of)
     for axes in (*diagram.axes[:2], spectra.over_speeds(seen, operating=of).axes[1]):
         assert any(line.get_xdata() == pytest.approx([1 / 3, 1 / 3]) for line in axes.lines)
+
+
+def test_blades_of_a_stage_are_drawn_by_number_and_speed(of_blades, figure):
+    """The map and the lines of most, median and least; none at speeds without a result."""
+    top, below, *_ = figure("blades").axes
+    has_result = of_blades.has_result
+    (mesh,) = top.collections
+    cells = np.ma.filled(mesh.get_array(), np.nan)[:, ::2]
+    most = np.linspace(2.0, 0.5, len(SPEEDS))[has_result]
+    np.testing.assert_allclose(cells, np.outer([1, 0.5, 0.25], most), rtol=1e-12)
+    for line, share in zip(below.lines, [1, 0.5, 0.25], strict=True):
+        np.testing.assert_allclose(line.get_ydata(), share * most)
+    np.testing.assert_array_equal(points(top, "o")[:, 1], 0 * most)
+
+
+def test_quantiles_over_seeds_are_told_apart_for_other_columns(over_seeds):
+    rows = list(csv.DictReader(designs.quantiles(over_seeds).splitlines()))
+    of_amplitude = [row for row in rows if row["number"] == designs.LARGEST]
+    assert [row["stage.longer_um.std_um"] for row in of_amplitude] == ["1"] * 5 + ["3"] * 5
+    shares = [float(row["quantile"]) for row in of_amplitude[:5]]
+    exact = np.quantile(np.arange(1, 31), shares)
+    np.testing.assert_allclose([float(row["value"]) for row in of_amplitude[5:]], exact, rtol=1e-5)
+    assert {(row["draws"], row["draws_needed"]) for row in of_amplitude} == {
+        ("30", needed) for needed in ("5", "29", "59", "299")
+    }
+    assert all(float(row["low"]) <= float(row["value"]) <= float(row["high"]) for row in rows)
+    assert "EO 4 critical speed (rpm)" in {row["number"] for row in rows}
 
 
 def test_every_marked_peak_stands_on_a_curve(sweep, rom):

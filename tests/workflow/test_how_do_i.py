@@ -10,9 +10,11 @@ from geometry.base import read_json
 from workflow.readme import printed
 
 PAGE = (ROOT / "workflow/how-do-i.md").read_text()
-FILES = dict(re.findall(r"```yaml\n# (\S+)\n(.*?)```", PAGE, re.DOTALL))
+FILES = dict(re.findall(r"```(?:yaml|csv)\n# (\S+)\n(.*?)```", PAGE, re.DOTALL))
 PYTHON = re.findall(r"```python\n(.*?)```", (ROOT / "README.md").read_text() + PAGE, re.DOTALL)
-NAMES = [path.split("/")[-1].removesuffix(".yaml") for path in FILES if "/scenes/" in path]
+NAMES = [
+    path.split("/")[-1].removesuffix(".yaml") for path in FILES if re.search("/scenes/.*yaml", path)
+]
 OF_REFERENCE = ("my-run-up", "my-liner", "my-orbit", "my-casing", "my-gauges")
 
 
@@ -32,12 +34,12 @@ def test_the_first_page_shows_what_the_terminal_prints_of_the_first_scene(projec
 
 
 def test_the_page_has_over_a_dozen_recipes():
-    assert len(re.findall(r"^## \.\.\. .*\?$", PAGE, re.MULTILINE)) == 14
+    assert len(re.findall(r"^## \.\.\. .*\?$", PAGE, re.MULTILINE)) == 15
 
 
 def test_files_of_the_page_are_planned(with_files):
     planned = with_files.planned("--config", f"scenes=[{', '.join(NAMES)}]")
-    assert (planned["sweep"], planned["design"]) == (len(NAMES) - 1, 1)
+    assert (planned["sweep"], planned["design"]) == (len(NAMES) - 2, 2)
     assert with_files.planned("results/my-engine/rom-r.nc")["reduce"] == 1
 
 
@@ -52,6 +54,8 @@ def test_files_of_the_page_give_results(with_files):
         "results/my-alloy/my-margin/stress.vtu",
         "results/paper/my-table/design.csv",
         "results/figures/design-my-table.png",
+        "results/paper/my-scatter/quantiles.csv",
+        "results/figures/distribution-my-scatter.png",
         "results/figures/campbell-my-engine.png",
         "results/paper/my-gauges/gauges.csv",
         "results/figures/gauges-my-gauges.png",

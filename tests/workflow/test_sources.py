@@ -113,7 +113,10 @@ TARGETS = [
     "results/experiments/interface/picture.png",
     *("results/matrices/rom-check-r.nc", "results/paper/conclusions.md"),
     *("results/paper/gauged/gauges.csv", "results/figures/gauges-gauged.png"),
+    *("results/figures/blades-staged.png", "results/figures/distribution-scattered.png"),
+    "results/paper/scattered/quantiles.csv",
 ]
+STAGED = "base: paper-e1\nstage: {count: 2, longer_um: {std_um: 1, seed: 1}}\n"
 GAUGED = """
 base: paper-e1
 record: {gauges: [{name: root, at: [440, 1.8, 0], direction: [1, 0, 0]}]}
@@ -157,6 +160,9 @@ def jobs(tmp_path_factory):
     for file in check_settings(MatricesElsewhere, yaml.safe_load(text), "").files:
         (blades / file).touch()
     (project.folder / "workflow/scenes/gauged.yaml").write_text(GAUGED)
+    (project.folder / "workflow/scenes/staged.yaml").write_text(STAGED)
+    (project.folder / "workflow/scenes/scattered.yaml").write_text(f"{STAGED}design: seeds.csv\n")
+    (project.folder / "workflow/scenes/seeds.csv").write_text("stage.longer_um.seed\n1\n2\n")
     project.run("-n", *TARGETS)
     return json.loads((project.folder / "jobs.json").read_text())
 

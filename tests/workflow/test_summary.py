@@ -105,7 +105,7 @@ def read_csv(found):
 
 def cells(found):
     """Cells of the one row of each table as they are shown."""
-    return [cell for _, (row,) in summary.shown(found["scenes"][0]) for cell in row]
+    return [cell for _, rows in summary.shown(found["scenes"][0]) for row in rows for cell in row]
 
 
 @pytest.fixture
@@ -201,6 +201,57 @@ def test_scene_says_its_model_its_crossings_and_what_its_ends_show(summed):
     (foreign,) = summed(model_error={"basis": None, "mesh": None}, ends=[])["scenes"]
     assert "76 DoFs; runs" in summary.about(foreign)
     assert not any("rpm (" in note for note in summary.notes(foreign))
+
+
+STAGE = {  # the third blade is long, rubs alone, and is not the one that moves most
+    "worst": 1,
+    "rub": [0, 1, 2, 4],
+    "longer": [0.0, 0.0, 8e-6, 0.0, 0.0],
+    "frequencies": [0.0] * 5,
+    "numbers": {
+        "amplitude": [3e-5, 5e-5, 1e-5, 3e-5, 4e-5],
+        "force": [10.0, 50.0, 0.5, 20.0, 30.0],
+    },
+}
+
+
+@pytest.mark.parametrize(
+    ("stage", "says"),
+    [
+        (
+            {},
+            "4 of 5 blades rub (0 to 2, 4); the worst is blade 1: length +0 µm; its amplitude is "
+            "1.67 times that of the median blade, 5 times the least, of blade 2: length +8 µm (the "
+            "longest); rank correlation of the amplitudes -0.7 with length",
+        ),
+        (
+            {"longer": [0.0] * 5, "rub": [0, 1, 2, 3, 4]},
+            "all 5 blades rub; the worst is blade 1: equal to all others; its amplitude is 1.67 "
+            "times that of the median blade, 5 times the least, of blade 2: equal to all others",
+        ),
+        (
+            {"longer": [0.0] * 5, "frequencies": [0, -0.02, 0, 0, 0], "rub": []},
+            "0 of 5 blades rub (none); the worst is blade 1: frequencies -2 % (the lowest); its "
+            "amplitude is 1.67 times that of the median blade, 5 times the least, of blade 2: "
+            "frequencies +0 %; rank correlation of the amplitudes -0.7 with frequencies",
+        ),
+    ],
+    ids=["one long", "all equal", "one soft"],
+)
+def test_the_worst_blade_is_named_in_text_table_and_csv(summed, stage, says):
+    found = summed({"blades": STAGE | stage}, blades=5)
+    assert f"EO 4 at 4200 rpm: {says}." in summary.terminal(found)
+    assert f"EO 4 at 4200 rpm: {says}." in summary.table(found)
+    heads, rows = summary.shown(found["scenes"][0])[2]
+    assert heads[3:] == ["over the blades", "most", "blade", "median", "least", "blade"]
+    assert rows[0][3:] == ["amplitude µm", "50", "1", "30", "10", "2"]
+    assert rows[1][:3] == [""] * 3 and rows[1][4:] == ["50", "1", "20", "0.5", "2"]
+    row = read_csv(found)
+    assert (row["blades"], row["worst blade"]) == ("5", "1")
+    assert row["blades that rub"].split() == [str(j) for j in (STAGE | stage)["rub"]]
+    spread = [float(row[f"amplitude {of} of blades (um)"]) for of in ("most", "median", "least")]
+    assert spread == [50, 30, 10] and row["worn_per_pass most of blades (um per pass)"] == ""
+    assert "worst blade" not in read_csv(summed())
 
 
 def test_of_a_growing_motion_stress_and_margin_are_bounds(summed):
@@ -388,7 +439,7 @@ def test_a_casing_that_tapers_has_place_u_t_and_second_order(summed):
     )
     plain = summed()
     assert "40 ±5%" in cells(plain) and read_csv(plain)["place (xi)"] == ""
-    (motion, _), _ = summary.shown(plain["scenes"][0])
+    (motion, _), *_ = summary.shown(plain["scenes"][0])
     assert not [head for head in motion if "u_t" in head or "second" in head]
 
 
@@ -440,7 +491,7 @@ def test_one_entry_brings_a_number_to_peaks_csv_tables_and_legend(summed, coarse
     assert float(row["deepest +- (um)"]) == pytest.approx(error, rel=1e-5)
     assert row["tip_speed (m/s)"] and not row["tip_speed +- (m/s)"]
     assert float(row["worn_per_pass +- (um per pass)"]) > 0
-    _, (heads, (cells,)) = summary.shown(found["scenes"][0])
+    _, (heads, (cells,)), _ = summary.shown(found["scenes"][0])
     assert float(cells[heads.index("deepest µm")].split()[0]) == pytest.approx(depth, rel=0.01)
     assert cells[heads.index("tip m/s")] and cells[heads.index("worn µm per pass")]
     assert "- deepest: wear of all rods.\n- mode:" in summary.meaning()

@@ -20,6 +20,7 @@ PURE = (
     "nodes",
     "fraction",
     "lobes",
+    "number",
     "patches",
     "modulus",
     "strain",

@@ -12,6 +12,7 @@ const MARGIN = { l: 66, r: 12, t: 34, b: 44 };
 const WIDEST = 0.04; // of the last speed, a cell of the map
 const last = facts.speeds.length - 1;
 let chosen = 0;
+let chosenBlade = null; // chosen of a stage; null: the worst of each speed
 
 async function inflated(text) {
   const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
@@ -91,7 +92,9 @@ const ALONG = "Amplitude of the tip along engine orders (EO)";
 
 function drawOrders(codes) {
   if (!has("along")) return notRecorded("orders", ALONG, "record.spectrum_rounds in the scene");
-  const along = rows(numbers(codes, "along"), facts.orders.length);
+  const all = facts.orders.length;
+  const along = chosenBlade === null ? rows(numbers(codes, "along"), all)
+    : rows(numbers(codes, "blade_along"), layout.blade_along.shape[1] * all).map((of) => of.slice(chosenBlade * all, (chosenBlade + 1) * all));
   const high = topDecade(1.4 * 10 ** Math.max(largest(along.map(largest)), -2)), low = high - 4;
   const mode = facts.speeds.length < FEW ? "lines+markers" : "lines";
   const traces = facts.orders.map((k, j) => ({
@@ -103,14 +106,14 @@ function drawOrders(codes) {
   if (failed.length)
     traces.push({ x: scaled("speed", failed), y: failed.map(() => 10 ** (low + 0.1)), mode: "markers", name: "no result",
       marker: { symbol: "x", size: 8, color: "#000" } });
-  const marks = facts.peaks.map((peak) => ({
+  const marks = (chosenBlade === null ? facts.peaks : []).map((peak) => ({ // those of the worst blade
     x: shown("speed", facts.speeds[peak.index]), y: Math.log10(shown("length", peak.amplitude)), text: `${peak.name}<br>${peakText(peak)}`,
     hovertext: peak.says,
     showarrow: true, arrowhead: 0, ax: 0, ay: -26 - 28 * above(peak), font: { size: 11 }, bgcolor: "rgba(255,255,255,0.7)",
   }));
   const narrow = byId("orders").clientWidth < 600;
   return plot("orders", traces, {
-    ...titled(ALONG), showlegend: true, hovermode: "x", hoverdistance: -1, // a click anywhere chooses
+    ...titled(ALONG + ofBlade()), showlegend: true, hovermode: "x", hoverdistance: -1, // a click anywhere chooses
     xaxis: speedAxis(), yaxis: axis(length("amplitude ‖Y‖"), decades(low, high)), annotations: [...lineNames(), ...marks],
     legend: narrow ? { orientation: "h", y: -0.3, itemclick: false, itemdoubleclick: false }
       : { x: 1.01, itemclick: false, itemdoubleclick: false },
@@ -300,8 +303,8 @@ function showAnswers(codes) {
   byId("of_scene").textContent = told.about;
   const table = ({ heads, rows }) => `<thead><tr>${cells("th", heads)}</tr></thead><tbody>` +
     rows.map((row) => `<tr>${cells("td", row)}</tr>`).join("") + "</tbody>";
-  ["peaks", "loads", "margins"].forEach((name, i) => { byId(name).innerHTML = table(told.tables[i]); });
-  byId("margins").parentElement.hidden = !told.tables[2].rows.length;
+  ["peaks", "loads", "blades", "margins"].forEach((name, i) => { byId(name).innerHTML = table(told.tables[i]); });
+  byId("margins").parentElement.hidden = !told.tables[3].rows.length;
   byId("notes").innerHTML = told.notes.map((note) => `<li>${text(note)}</li>`).join("");
   byId("explained").textContent = told.meaning;
   ["peaks", "loads"].forEach((name) => byId(name).querySelectorAll("tbody tr").forEach((row, i) =>
@@ -315,6 +318,7 @@ function showSpeed() {
   byId("at").textContent = `${(60 * hertz).toFixed(0)} rpm, ${hertz.toFixed(1)} Hz, Ω / f₁(0) = ${speed.toFixed(4)}: ` +
     `${facts.status[chosen]}, ${facts.trend[chosen]}${lobes}`;
   byId("speed").value = chosen;
+  sayBlade();
 }
 
 const listeners = []; // what else follows the chosen speed
@@ -324,7 +328,7 @@ async function choose(codes, index) {
   showSpeed();
   showNumbers();
   const maps = ["campbell", ...(has("spectrum") ? ["orders", "map"] : [])].map((name) => Plotly.relayout(name, { shapes: lines() }));
-  const drawn = [...maps, drawSpectrum(codes), drawWear(codes), drawHistory(codes), drawSignal(codes)];
+  const drawn = [...maps, drawSpectrum(codes), drawWear(codes), drawHistory(codes), drawSignal(codes), drawBlades(codes)];
   listeners.forEach((listen) => listen(chosen));
   await Promise.all(drawn);
   document.body.dataset.shown = chosen; // for tests
@@ -376,6 +380,7 @@ async function start() {
   showAnswers(codes);
   await drawAll(codes);
   listen(codes);
+  await listBlades(codes);
   offerFiles();
   startBlade(codes);
   await choose(codes, first);

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 HERE = Path(__file__).parent
-SCRIPTS = ("page.js", "units.js", "save.js", "blade.js")
+SCRIPTS = ("page.js", "units.js", "save.js", "stage.js", "blade.js")
 MISSING = 65535  # where a number is not finite
 LARGEST = 65534
 

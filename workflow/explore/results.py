@@ -31,7 +31,9 @@ def arrays(response: Response) -> dict[str, NDArray[np.float64]]:
     along (speeds, orders); spectrum (speeds, bins); worn (speeds, angles) of the leading eighth;
     liner (speeds, strips, coarse angles); history (speeds, windows, 2), its range; inward (angles),
     the casing's distortion, of harmonics that travel at the start; signal (speeds, times), u_r at
-    the place of the motion in the last revolution. Only data that the sweep holds.
+    the place of the motion in the last revolution; blade_along (speeds, blades, orders) and
+    blade_most (speeds, blades), the largest of all orders, of a stage. Only data that the sweep
+    holds.
     """
     sweep, gap = response.sweep, leading_gap(response.sweep)
     theta = np.arange(ANGLES) * 2 * np.pi / ANGLES
@@ -45,6 +47,11 @@ def arrays(response: Response) -> dict[str, NDArray[np.float64]]:
         "spectrum": ("spectrum", lambda: log10(_spectrum(response))),
         "history": ("envelope", lambda: sweep["envelope"].values / gap),
         "signal": ("motion", lambda: _signal(response) / gap),
+        "blade_along": (
+            "blade_along",
+            lambda: log10(sweep["blade_along"].sel(order=response.orders).values / gap),
+        ),
+        "blade_most": ("blade_along", lambda: sweep["blade_along"].max("order").values / gap),
     }
     return {"inward": response.scene.casing.inward(theta, gap) / gap} | {
         name: make() for name, (needed, make) in outputs.items() if needed in sweep
@@ -102,6 +109,7 @@ def facts(
             (row["modes"][0], row["k"], row["rpm"] / (RPM * rom.omega1))
             for row in campbell["crossings"]
         ],
+        "blades": of_blades(sweep),
         "signal_time": sweep["motion_time"].values.tolist() if "motion" in sweep else [],
         "f1_Hz": sweep.attrs["f1_Hz"],
         "gap_um": 1e6 * leading_gap(sweep),
@@ -148,6 +156,19 @@ def facts(
             ),
         ],
         "meanings": sweep["energy"].attrs["long_name"],
+    }
+
+
+def of_blades(sweep: xr.Dataset) -> dict[str, Any] | None:
+    """Of a stage: the worst blade and those that rub at each speed, and what they differ in."""
+    if "blade" not in sweep:
+        return None
+    return {
+        "worst": sweep["worst"].values.tolist(),
+        "rubs": (sweep["blade_contact_share"].values > 0).tolist(),
+        "longer_um": (1e6 * sweep["longer"].values).tolist(),
+        "percent": (1e2 * sweep["frequency"].values).tolist(),
+        "displacement_um": [plain(values) for values in 1e6 * sweep["blade_displacement"].values.T],
     }
 
 

@@ -108,7 +108,8 @@ def mark_speeds(axes: Axes, response: Response) -> None:
     if not peaks:
         return
     crossings = [(p.k, p.crossing) for p in peaks if p.crossing and p.crossing >= start]
-    _row(axes, CROSSINGS_AT, "white", "crossing", crossings)
+    if crossings:  # a line of no points has no place: the layout would find no room for the axes
+        _row(axes, CROSSINGS_AT, "white", "crossing", crossings)
     _row(axes, PEAKS_AT, style.BLACK, "peak", [(peak.k, peak.Omega_c) for peak in peaks])
 
 

@@ -1,5 +1,7 @@
 """Designs: their rows as a table and a picture, and the factors that matter."""
 
+from itertools import cycle
+
 import numpy as np
 import pandas as pd
 import xarray as xr
@@ -10,9 +12,12 @@ from numpy.typing import NDArray
 from simulate.scene import TRENDS
 from workflow.figures import lines, style
 from workflow.figures.units import MICRO, RPM_PER_HZ
+from workflow.many import quantiles as over_seeds
+from workflow.many.design import SEED
 from workflow.many.design_tables import Rows
 from workflow.many.sobol import indices
 
+NUMBERS = ("(µm)", "(rpm)", "(N)")  # units that end the columns of numbers
 LARGEST, DEEPEST = "largest amplitude (µm)", "deepest wear (µm)"  # of all runs of a row
 VALUE = "value (in the unit of its key)"
 QUANTITIES = {"largest_amplitude": "largest amplitude", "largest_wear": "deepest wear"}
@@ -53,6 +58,47 @@ def table(rows: xr.Dataset) -> pd.DataFrame:
 def csv(rows: Rows) -> str:
     """The same as CSV."""
     return table(rows).to_csv(float_format="%.6g")
+
+
+def quantiles(rows: xr.Dataset) -> str:
+    """Quantiles of the numbers of the rows over the seeds as CSV, each with its interval.
+
+    Apart for each value of the other columns of the design.
+    """
+    frame = table(rows)
+    numbers = [name for name in frame if name.endswith(NUMBERS)]
+    return over_seeds.table(frame, _no_seeds(rows), numbers).to_csv(
+        index=False, float_format="%.6g"
+    )
+
+
+def _no_seeds(rows: xr.Dataset) -> list[str]:
+    """Columns that the design gives, but for seeds."""
+    given = (name for name, values in rows.items() if values.attrs.get("long_name") == "given")
+    return [name for name in map(str, given) if not name.endswith(SEED)]
+
+
+@style.styled
+def distribution(rows: Rows) -> Figure:
+    """Shares of the rows up to each largest amplitude and deepest wear, with quantiles.
+
+    A line for each value of the columns that are no seeds; bars: intervals of the quantiles.
+    """
+    drawn, panels = style.subplots(style.SINGLE, 4.0, 2, letters=True, sharey=True)
+    groups = over_seeds.apart(table(rows), _no_seeds(rows))
+    for axes, name in zip(panels, (LARGEST, DEEPEST), strict=True):
+        for (values, frame), (_, color) in zip(groups, cycle(lines.LOOKS)):
+            draws = frame[name].dropna()
+            said = [f"{key} {value:g}" for key, value in values.items()]
+            axes.ecdf(draws, color=color, label=", ".join([*said, f"{len(draws)} draws"]))
+            for share in over_seeds.SHARES:
+                of = over_seeds.quantile(draws, share)
+                enough = {} if of.draws >= of.draws_needed else {"markerfacecolor": "none"}
+                axes.plot([of.low, of.high], [share, share], color=color, linewidth=2.5, alpha=0.4)
+                axes.plot(of.value, share, "o", color=color, **enough)
+        axes.set(xlabel=name, ylabel="share of the draws", ylim=(0, 1.02))
+    style.legend(drawn, "lower center", title="bars: 95 % intervals; hollow: too few draws")
+    return drawn
 
 
 def draw(rows: Rows) -> Figure:

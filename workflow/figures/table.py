@@ -9,16 +9,19 @@ from pydantic import Field
 
 from geometry.base import Settings, SettingsError, check_settings, merged, read_mapping
 from simulate.scene import Scene
+from workflow.many.design import over_seeds
+from workflow.many.plan import SCENES
 
 DELIVERED = "delivered"  # the part of the table that a plain run delivers
 OF_SCENE = {  # demands on the value of a key of a scene
     "set": bool,
     "changing with the speed": lambda gaps: gaps.vary,
     "a YAML file": lambda path: path is not None and path.endswith((".yaml", ".yml")),
+    "over seeds": lambda path: path is not None and over_seeds(SCENES / path),
 }
 
 type Need = Literal[
-    *("set", "changing with the speed", "a YAML file", "matrices", "mesh", "fatigue")
+    *("set", "changing with the speed", "a YAML file", "over seeds", "matrices", "mesh", "fatigue")
 ]
 
 

@@ -43,6 +43,7 @@ FILE = re.compile(r"[/\\]|\.(?![eEdD][+-]?\d)[^\W\d]|\w:[^\W\d]")
 LOOKED = 100  # rows at most by whose scenes the columns are checked
 NUMBERS = "workflow.many.design_rows:numbers"  # function of a row
 BLADE = "blade"  # column
+SEED = ".seed"  # ends the columns of seeds
 REFUSED = {  # columns that no row may have, by their first key
     "accuracy": "one pilot chooses step, rods and strips for all rows: give it in the scene",
     "design": "a row is one scene",
@@ -180,6 +181,12 @@ class Design:
         if found.scene is None:
             raise SettingsError(*found.refused, **about)
         return found.scene
+
+
+def over_seeds(path: Path) -> bool:
+    """Whether the rows of the table at a path differ by a seed."""
+    there = path.suffix == ".csv" and path.is_file()
+    return there and any(name.endswith(SEED) for name in next(_lines(path), []))
 
 
 def _lines(path: Path) -> Iterator[list[str]]:

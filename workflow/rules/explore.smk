@@ -3,7 +3,7 @@ rule explore:
         code=code_of("explore"),
         parts=own_files(
             f"workflow/explore/{name}"
-            for name in ("blade.js", "page.css", "page.html", "page.js", "save.js", "units.js")
+            for name in "blade.js page.css page.html page.js save.js stage.js units.js".split()
         ),
         mesh="results/{blade}/blade.msh",
         rom=scenes.rom,

@@ -164,6 +164,22 @@ rule design_row:
         "../scripts/design_row.py"
 
 
+# Where the rows differ by seeds.
+rule design_quantiles:
+    input:
+        rows="results/{blade}/{scene}/design-rows.nc",
+        code=code_of("design_quantiles"),
+    output:
+        csv="results/{blade}/{scene}/quantiles.csv",
+    log:
+        "results/{blade}/{scene}/logs/quantiles.csv.log",
+    localrule: True
+    message:
+        "Design of scene {wildcards.scene}: quantiles over its seeds"
+    script:
+        "../scripts/design_quantiles.py"
+
+
 rule design_csv:
     input:
         rows="results/{blade}/{scene}/design-rows.nc",

@@ -61,8 +61,9 @@ def in_one_line(message: Warning | str, *_: Any, shown: bool, **__: Any) -> None
 def closing_words(project: Project, made: Collection[str]) -> Iterator[str]:
     """Of tables of designs and experiments, and the summary, as far as they were ``made``."""
     for name, scene in project.designs.items():
-        drawn = [f"results/figures/{kind}-{name}.png" for kind in ("design", "sensitivity")]
-        files = [f"results/{scene.blade}/{name}/design.csv", *drawn]
+        kinds, folder = ("design", "sensitivity", "distribution"), f"results/{scene.blade}/{name}"
+        drawn = [f"results/figures/{kind}-{name}.png" for kind in kinds]
+        files = [f"{folder}/design.csv", f"{folder}/quantiles.csv", *drawn]
         if found := [file for file in files if file in made]:
             yield f"Design of scene {name}: {', '.join(found)}; {words_of_table(files[0])}."
     for path in sorted(made):

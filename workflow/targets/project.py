@@ -15,6 +15,7 @@ from simulate.scene.casing import CASING
 from workflow.at_work import not_writable
 from workflow.config import read_config
 from workflow.figures import table
+from workflow.many.design import over_seeds
 from workflow.targets.blades import AnyBlade, Blades
 from workflow.targets.inputs import ROOT, OfJob, own_files
 from workflow.targets.scenes import Scenes
@@ -141,7 +142,10 @@ class Project:
         return [
             f"results/{scene.blade}/{name}/{file}"
             for name, scene in self.designs.items()
-            for file in ("design-runs.nc", "design-rows.nc", "design.csv")
+            for file in (
+                *("design-runs.nc", "design-rows.nc", "design.csv"),
+                *["quantiles.csv"] * over_seeds(self.scenes.designs[name].path),
+            )
         ]
 
     def roms(self) -> list[str]:
