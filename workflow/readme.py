@@ -23,7 +23,7 @@ from simulate.scene import Scene, verify
 from simulate.sweeps.result_types import numbers_of
 from workflow.markdown import change, table, two_digits
 from workflow.paper import conclusions
-from workflow.study import interface, mesh_convergence, trade_table
+from workflow.study import blades, interface, mesh_convergence, trade_table
 from workflow.study.stability import told as stability
 from workflow.summary import (
     OVER_F1,
@@ -146,6 +146,7 @@ COMPUTED = (
     ("levels", TRADE, trade_table.by_level),
     ("converges", "results/experiments/interface/table.json", interface.results),
     ("nodes", f"{KEPT}/nodes.csv", kept),
+    ("blades", "results/experiments/blades/table.json", blades.table),
     ("casings", f"{KEPT}/casings.csv", kept),
     ("large", f"{KEPT}/large.csv", kept),
     ("solvers", f"{KEPT}/solvers.csv", kept),
