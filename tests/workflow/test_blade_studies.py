@@ -4,12 +4,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from runs import swept
+from scenes import EXACT, RUBBING, scene
 
 from geometry.base import read_mapping, write_json
 from geometry.hats import hats
 from rom.modes import ShiftInvert
 from workflow import readme
-from workflow.study import frequencies, mesh_convergence
+from workflow.study import blades, frequencies, mesh_convergence
 
 ROOT = Path(__file__).parents[2]
 MODES = 10
@@ -119,3 +121,56 @@ def test_a_page_takes_a_study_where_it_has_been_run(of_meshes, tmp_path):
     write_json(of_meshes, tmp_path / "results/experiments/mesh/table.json")
     pages = readme.generated(readme.read_pages(ROOT), tmp_path)
     assert mesh_convergence.table(of_meshes) in pages["fem/README.md"]
+
+
+def test_peaks_of_blades_are_those_of_the_sweep_and_of_a_longer_run(coarse_rom, monkeypatch):
+    """The worst, the median and the least of two unequal blades; the longer run stops in time."""
+    monkeypatch.setattr(blades, "PASSES", 24)
+    stage = {"count": 2, "longer_um": [0, 3]}
+    record = {"samples_per_round": 64, "spectrum_rounds": 4}
+    case = scene(
+        **RUBBING | {"integrator": EXACT, "rounds": 6},
+        record=record,
+        stage=stage,
+        speeds={"over_f1": [0.34, 0.36, 0.38]},
+    )
+    runs = swept(case, coarse_rom)
+    found = blades.at_peaks(runs, case, coarse_rom)["EO 4"]
+    at = runs.sel(speed_over_f1=found["speed"])
+    along = 1e6 * at["blade_along"].sel(order=4).values
+    assert found["amplitude_um"] == pytest.approx(along[found["worst"]], rel=1e-6)
+    assert found["median_um"] == pytest.approx(along.mean(), rel=1e-6)
+    assert found["least_um"] == pytest.approx(along.min(), rel=1e-6)
+    assert found["largest_um"] == pytest.approx(1e6 * at["blade_displacement"].values.max())
+    later = case.but(rounds=12, speeds={"over_f1": [found["speed"]]})
+    expected = swept(later, coarse_rom)["blade_along"].sel(order=4)[0, found["worst"]].item()
+    assert found["steady"]["rounds"] == 12
+    assert found["steady"]["amplitude_um"] == pytest.approx(1e6 * expected, rel=0.05)
+
+
+def of_blades(group, row, amplitude, trend="steady", status="ok"):
+    """A made row of the experiment of blades."""
+    steady = {"status": status, "trend": trend, "rounds": 212.0, "wear_um": 1.0}
+    steady["amplitude_um"] = None if status != "ok" else 2 * amplitude
+    of = {"speed": 0.37, "stands_out": 1, "amplitude_um": amplitude, "steady": steady}
+    of |= {"median_um": 5e-3, "least_um": 0.0, "largest_um": 9.0, "wear_um": 1.0, "worst": 0}
+    return {"group": group, "row": row, "numbers": {"EO 4": of, "EO 5": of}}
+
+
+def test_the_table_of_blades_has_rows_and_quantiles_of_draws():
+    rows = [
+        of_blades("20 revolutions", "one blade", 74.0, status="liner-exhausted", trend="growing"),
+        of_blades("casing", "400 Hz", 64.0, trend="growing"),
+        *(of_blades("scatter", f"draw {i}", 80.0 + i) for i in range(10)),
+    ]
+    heads, _, one, casing, half, last = blades.table(rows).splitlines()
+    assert heads.count("EO 4: Ω / f₁(0)") == heads.count("EO 5: Ω / f₁(0)") == 1
+    later = "liner-exhausted, not steady after 212 rev."
+    assert one.startswith(f"| one blade | 0.37 | 74 | 0 | 9 | {later} | 0.37 ")
+    assert casing.startswith("| casing: 400 Hz | 0.37 | 64 ")
+    assert "| 128, not steady after 212 rev. |" in casing
+    exact = np.quantile(80.0 + np.arange(10), [0.5, 0.9])
+    for line, share, value in zip((half, last), (50, 90), exact, strict=True):
+        cells = line.split(" | ")
+        assert cells[0] == f"| scatter: {share} % of 10 draws"
+        assert cells[2].startswith(f"{value:.3g} (") and cells[5].endswith("; 10 steady")
