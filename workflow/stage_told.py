@@ -7,13 +7,13 @@ from typing import Literal
 
 from simulate.sweeps.result_types import OfBlades
 
-HEADS = ["EO", "mode", "rpm", "over the blades", "most", "blade", "median", "least", "blade"]
+HEADS = ["EO", "mode", "rpm", "number (blade)", "worst blade", "most", "median", "least"]
 SCATTERED: dict[str, tuple[Literal["longer", "frequencies"], float, str, tuple[str, str]]] = {
     "length": ("longer", 1e6, "µm", ("longest", "shortest")),
     "frequencies": ("frequencies", 1e2, "%", ("highest", "lowest")),
 }  # by name: key, scale, unit, names of the ends
 EQUAL = 1e-9  # m, and relative: less is no difference
-FEWEST = 5  # blades of which a rank correlation says something
+FEWEST = 5  # values that differ, of which a rank correlation says something
 
 
 def listed(numbers: Sequence[int]) -> str:
@@ -33,32 +33,31 @@ def worst(of: OfBlades) -> str:
     """Which blades rub, how the worst one and the one that moves least differ, in a sentence."""
     count, rub, number = len(of["longer"]), of["rub"], of["worst"]
     differ = [name for name, (key, *_) in SCATTERED.items() if max(of[key]) - min(of[key]) > EQUAL]
-    amplitudes = of["numbers"].get("amplitude", [0.0])
-    most, least = amplitudes[number], min(amplitudes)
+    largest = of["numbers"]["displacement"]
+    least = largest.index(min(largest))
     parts = [
         f"all {count} blades rub"
         if len(rub) == count
         else f"{len(rub)} of {count} blades rub ({listed(rub) or 'none'})",
         f"the worst is blade {number}: {_off(of, number, differ)}",
     ]
-    if least > 0:
+    if largest[least] > 0:
         parts.append(
-            f"its amplitude is {most / median(amplitudes):.3g} times that of the median blade, "
-            f"{most / least:.3g} times the least, of blade "
-            f"{(last := amplitudes.index(least))}: {_off(of, last, differ)}"
+            f"its largest displacement is {largest[number] / median(largest):.3g} times the "
+            f"median, {largest[number] / largest[least]:.3g} times that of blade {least}, which "
+            f"moves least: {_off(of, least, differ)}"
         )
-    if differ and len(amplitudes) >= FEWEST and max(amplitudes) > least:
-        with_each = (
-            f"{correlation(amplitudes, of[SCATTERED[name][0]], method='ranked'):+.1f} with {name}"
-            for name in differ
-        )
-        parts.append(f"rank correlation of the amplitudes {', '.join(with_each)}")
-    return "; ".join(parts)
+    with_each = [
+        f"{correlation(largest, values, method='ranked'):+.1f} with {name}"
+        for name in differ
+        if len({*(values := of[SCATTERED[name][0]])}) >= FEWEST and len({*largest}) > 1
+    ]
+    return "; ".join([*parts, *[f"rank correlation {', '.join(with_each)}"] * bool(with_each)])
 
 
 def _off(of: OfBlades, number: int, differ: Sequence[str]) -> str:
     """By how much a blade is off those of the scene in what they ``differ`` in."""
-    return ", ".join(_of(of, number, name) for name in differ) or "equal to all others"
+    return ", ".join(_of(of, number, name) for name in differ) or "equal to the others"
 
 
 def _of(of: OfBlades, number: int, name: str) -> str:

@@ -17,7 +17,7 @@ from simulate.errors.model_errors import BEYOND
 from simulate.errors.neighbour import CHAOTIC, ONE_MOTION, TWO_MOTIONS
 from simulate.errors.schema import of_peaks
 from simulate.scene import DYING_OUT, GROWING, STEADY, TRENDS
-from simulate.sweeps.result_types import NO_CROSSING, Spread, numbers_of, order_name
+from simulate.sweeps.result_types import NO_CROSSING, OfBlades, Spread, numbers_of, order_name
 from workflow import margins, markdown, stage_told, stress_told
 from workflow.markdown import Number
 from workflow.stress_told import ALL
@@ -73,6 +73,7 @@ WORDS = {  # in the tables, beside the numbers
     "listed",
     CHAOTIC: "a change of all gaps by 1e-10 changes the numbers by over 1 %",
 }
+ENDS = ("most", "median", "least")  # of ``Spread``
 OF_STATES = {"sigma"}  # of ``stress.json``: for second runs
 FINER = {"finer", "companion"}  # second runs of other fineness: one of them
 PARTS = {  # of uncertainties, that may not be known
@@ -379,7 +380,11 @@ def shown(scene: Mapping[str, Any]) -> list[tuple[list[str], list[list[str]]]]:
         (
             stage_told.HEADS,
             [
-                [*(at if i == 0 else [""] * len(at)), column.head, *_spread(column, spread)]
+                [
+                    *(at if i == 0 else [""] * len(at)),
+                    column.head,
+                    *_spread(row["blades"], column, spread),
+                ]
                 for row in rows
                 for at in [[*_names(row), margins.speed(row)]]
                 for i, (column, spread) in enumerate(_over_blades(row))
@@ -398,12 +403,14 @@ def _over_blades(row: PeakRow) -> list[tuple[Column, Spread]]:
     ]
 
 
-def _spread(column: Column, spread: Spread) -> list[str]:
-    """Its cells: the most and its blade, the median, the least and its blade."""
-    most, median, least = (
-        column.number(value).shown for value in (spread.most, spread.median, spread.least)
-    )
-    return [most, str(spread.of_most), median, least, str(spread.of_least)]
+def _spread(of: OfBlades, column: Column, spread: Spread) -> list[str]:
+    """Its cells: of the worst blade, the most, the median, the least; in brackets the blades."""
+    blades = (of["worst"], spread.of_most, None, spread.of_least)
+    values = (of["numbers"][column.name][of["worst"]], spread.most, spread.median, spread.least)
+    return [
+        column.number(value).shown + ("" if blade is None else f" ({blade})")
+        for value, blade in zip(values, blades, strict=True)
+    ]
 
 
 def _names(row: PeakRow) -> list[str]:
@@ -456,7 +463,11 @@ def about(scene: Mapping[str, Any]) -> str:
     why = "".join(f"; no contact: {reason}" for reason in scene["reasons"])
     off = scene["model_error"]["basis"]
     within = "" if off is None else f" (frequencies within {markdown.percent(off)} of the full one)"
-    blades = f"{scene['blades']} blades, numbers of the worst; " if scene["blades"] > 1 else ""
+    blades = (
+        f"{scene['blades']} blades: motion, stress and force of the worst, wear and torque of all; "
+        if scene["blades"] > 1
+        else ""
+    )
     return (
         f"{blades}blade {scene['blade']}, f₁(0) = {scene['f1_Hz']:.2f} Hz, "
         f"gap {1e6 * scene['gap_m']:.3g} µm; reduced model: {scene['dofs']} DoFs{within}; "
@@ -620,12 +631,15 @@ def _of_blades(row: PeakRow) -> dict[str, Any]:
         "worst blade longer (um)": _digits(of["longer"][worst], 1e6),
         "worst blade frequencies (%)": _digits(of["frequencies"][worst], 1e2),
         **{
-            f"{column.name} {what} of blades ({column.unit})": _digits(
-                getattr(spreads.get(column.name), what, None), column.scale
+            f"{column.name} {what}{unit}": _digits(
+                getattr(spreads.get(column.name), key, None), scale
             )
             for column in all_columns()
             if of_peaks()[column.name].by_blade
-            for what in ("most", "median", "least")
+            for what, key, unit, scale in (
+                *((f"{end} of blades", end, f" ({column.unit})", column.scale) for end in ENDS),
+                *((f"{end} blade", f"of_{end}", "", 1.0) for end in ENDS[::2]),
+            )
         },
     }
 

@@ -192,7 +192,7 @@ def test_scene_says_its_model_its_crossings_and_what_its_ends_show(summed):
     assert summary.about(scene).endswith("runs: 40 ok, 1 diverged; no contact: too wide a gap")
     assert "the worst" not in summary.about(scene)
     (of_stage,) = summed(blades=36)["scenes"]
-    assert summary.about(of_stage).startswith("36 blades, numbers of the worst; blade ")
+    assert summary.about(of_stage).startswith("36 blades: motion, stress and force of the worst, ")
     assert summary.notes(scene)[:2] == [
         "Linear crossings of mode 1, rpm: EO 5 1362, EO 4 1861.",  # of the made model, 100 Hz
         "Ends of the sweep: 2400 rpm (0.200): 2 lobes; 4800 rpm (0.400): gap 50.0 and 60.0 µm at "
@@ -209,7 +209,8 @@ STAGE = {  # the third blade is long, rubs alone, and is not the one that moves 
     "longer": [0.0, 0.0, 8e-6, 0.0, 0.0],
     "frequencies": [0.0] * 5,
     "numbers": {
-        "amplitude": [3e-5, 5e-5, 1e-5, 3e-5, 4e-5],
+        "amplitude": [3e-5, 4e-5, 1e-5, 3e-5, 5e-5],
+        "displacement": [6e-5, 1e-4, 2e-5, 6e-5, 8e-5],
         "force": [10.0, 50.0, 0.5, 20.0, 30.0],
     },
 }
@@ -220,37 +221,48 @@ STAGE = {  # the third blade is long, rubs alone, and is not the one that moves 
     [
         (
             {},
-            "4 of 5 blades rub (0 to 2, 4); the worst is blade 1: length +0 µm; its amplitude is "
-            "1.67 times that of the median blade, 5 times the least, of blade 2: length +8 µm (the "
-            "longest); rank correlation of the amplitudes -0.7 with length",
+            "4 of 5 blades rub (0 to 2, 4); the worst is blade 1: length +0 µm; its largest "
+            "displacement is 1.67 times the median, 5 times that of blade 2, which moves least: "
+            "length +8 µm (the longest)",
         ),
         (
             {"longer": [0.0] * 5, "rub": [0, 1, 2, 3, 4]},
-            "all 5 blades rub; the worst is blade 1: equal to all others; its amplitude is 1.67 "
-            "times that of the median blade, 5 times the least, of blade 2: equal to all others",
+            "all 5 blades rub; the worst is blade 1: equal to the others; its largest "
+            "displacement is 1.67 times the median, 5 times that of blade 2, which moves least: "
+            "equal to the others",
         ),
         (
             {"longer": [0.0] * 5, "frequencies": [0, -0.02, 0, 0, 0], "rub": []},
             "0 of 5 blades rub (none); the worst is blade 1: frequencies -2 % (the lowest); its "
-            "amplitude is 1.67 times that of the median blade, 5 times the least, of blade 2: "
-            "frequencies +0 %; rank correlation of the amplitudes -0.7 with frequencies",
+            "largest displacement is 1.67 times the median, 5 times that of blade 2, which moves "
+            "least: frequencies +0 %",
+        ),
+        (
+            {"longer": [3e-6, 4e-6, 0.0, 1e-6, 2e-6]},
+            "4 of 5 blades rub (0 to 2, 4); the worst is blade 1: length +4 µm (the longest); its "
+            "largest displacement is 1.67 times the median, 5 times that of blade 2, which moves "
+            "least: length +0 µm (the shortest); rank correlation +0.8 with length",
         ),
     ],
-    ids=["one long", "all equal", "one soft"],
+    ids=["one long", "all equal", "one soft", "scatter"],
 )
 def test_the_worst_blade_is_named_in_text_table_and_csv(summed, stage, says):
     found = summed({"blades": STAGE | stage}, blades=5)
     assert f"EO 4 at 4200 rpm: {says}." in summary.terminal(found)
     assert f"EO 4 at 4200 rpm: {says}." in summary.table(found)
     heads, rows = summary.shown(found["scenes"][0])[2]
-    assert heads[3:] == ["over the blades", "most", "blade", "median", "least", "blade"]
-    assert rows[0][3:] == ["amplitude µm", "50", "1", "30", "10", "2"]
-    assert rows[1][:3] == [""] * 3 and rows[1][4:] == ["50", "1", "20", "0.5", "2"]
+    assert heads[3:] == ["number (blade)", "worst blade", "most", "median", "least"]
+    assert rows[0][3:] == ["amplitude µm", "40 (1)", "50 (4)", "30", "10 (2)"]
+    assert rows[2][:3] == [""] * 3 and rows[2][4:] == ["50 (1)", "50 (1)", "20", "0.5 (2)"]
     row = read_csv(found)
     assert (row["blades"], row["worst blade"]) == ("5", "1")
     assert row["blades that rub"].split() == [str(j) for j in (STAGE | stage)["rub"]]
     spread = [float(row[f"amplitude {of} of blades (um)"]) for of in ("most", "median", "least")]
-    assert spread == [50, 30, 10] and row["worn_per_pass most of blades (um per pass)"] == ""
+    assert spread == [50, 30, 10] and (row["amplitude most blade"], row["force least blade"]) == (
+        "4",
+        "2",
+    )
+    assert row["worn_per_pass most of blades (um per pass)"] == ""
     assert "worst blade" not in read_csv(summed())
 
 

@@ -328,7 +328,7 @@ async function choose(codes, index) {
   showSpeed();
   showNumbers();
   const maps = ["campbell", ...(has("spectrum") ? ["orders", "map"] : [])].map((name) => Plotly.relayout(name, { shapes: lines() }));
-  const drawn = [...maps, drawSpectrum(codes), drawWear(codes), drawHistory(codes), drawSignal(codes), drawBlades(codes)];
+  const drawn = [...maps, drawSpectrum(codes), drawWear(codes), drawHistory(codes), drawSignal(codes), ...(facts.blades ? [drawBlades()] : [])];
   listeners.forEach((listen) => listen(chosen));
   await Promise.all(drawn);
   document.body.dataset.shown = chosen; // for tests

@@ -31,9 +31,8 @@ def arrays(response: Response) -> dict[str, NDArray[np.float64]]:
     along (speeds, orders); spectrum (speeds, bins); worn (speeds, angles) of the leading eighth;
     liner (speeds, strips, coarse angles); history (speeds, windows, 2), its range; inward (angles),
     the casing's distortion, of harmonics that travel at the start; signal (speeds, times), u_r at
-    the place of the motion in the last revolution; blade_along (speeds, blades, orders) and
-    blade_most (speeds, blades), the largest of all orders, of a stage. Only data that the sweep
-    holds.
+    the place of the motion in the last revolution; blade_along (speeds, blades, orders) of a stage.
+    Only data that the sweep holds.
     """
     sweep, gap = response.sweep, leading_gap(response.sweep)
     theta = np.arange(ANGLES) * 2 * np.pi / ANGLES
@@ -51,7 +50,6 @@ def arrays(response: Response) -> dict[str, NDArray[np.float64]]:
             "blade_along",
             lambda: log10(sweep["blade_along"].sel(order=response.orders).values / gap),
         ),
-        "blade_most": ("blade_along", lambda: sweep["blade_along"].max("order").values / gap),
     }
     return {"inward": response.scene.casing.inward(theta, gap) / gap} | {
         name: make() for name, (needed, make) in outputs.items() if needed in sweep

@@ -2,15 +2,15 @@
 const ofBlade = () => (facts.blades ? (chosenBlade === null ? ", worst blade" : `, blade ${chosenBlade}`) : "");
 
 // The blades of a stage at the chosen speed; a click on a bar chooses one.
-function drawBlades(codes) {
-  if (!facts.blades || !has("blade_most")) return Promise.resolve();
-  const most = numbers(codes, "blade_most", chosen), worst = facts.blades.worst[chosen];
-  const shade = (j) => (j === worst ? "#D55E00" : j === chosenBlade ? "#0072B2" : "#808080");
-  return plot("by_blade", [{ type: "bar", x: range(most.length, (j) => j), y: scaled("length", Array.from(most)),
-    marker: { color: range(most.length, shade) }, text: range(most.length, differs), textposition: "none",
+function drawBlades() {
+  const { displacement_um, worst } = facts.blades, of = displacement_um.map((values) => values[chosen]);
+  const shade = (j) => (j === worst[chosen] ? "#D55E00" : j === chosenBlade ? "#0072B2" : "#808080");
+  return plot("by_blade", [{ type: "bar", x: range(of.length, (j) => j), y: of.map((um) => shown("length", um / facts.gap_um)),
+    marker: { color: range(of.length, shade) }, text: range(of.length, differs), textposition: "none",
     hovertemplate: "blade %{x}: %{y:.3~g}<br>%{text}<extra></extra>" }], {
-    ...titled(`Largest amplitude along an engine order, by blade; the worst is blade ${worst}`),
-    xaxis: axis("number of the blade, in the sense of rotation", { dtick: Math.ceil(most.length / 24) }), yaxis: axis(length("amplitude"), { rangemode: "tozero" }) });
+    ...titled(`Largest displacement by blade; the worst is blade ${worst[chosen]}`),
+    xaxis: axis("number of the blade, in the sense of rotation", { dtick: Math.ceil(of.length / 24) }),
+    yaxis: axis(length("largest displacement"), { rangemode: "tozero" }) });
 }
 
 const signed = (value) => `${value < 0 ? "−" : "+"}${Math.abs(value).toPrecision(3)}`;
@@ -31,7 +31,7 @@ function sayBlade() {
 async function listBlades(codes) {
   if (!facts.blades) return;
   document.querySelectorAll(".of_stage").forEach((part) => { part.hidden = false; });
-  await drawBlades(codes);
+  await drawBlades();
   const option = (value, text) => byId("of_blade").append(new Option(text, value));
   option("", "the worst");
   facts.blades.longer_um.forEach((_, j) => option(j, j));
@@ -39,9 +39,8 @@ async function listBlades(codes) {
     chosenBlade = value === "" ? null : Number(value);
     byId("of_blade").value = value;
     sayBlade();
-    return Promise.all([drawOrders(codes), drawBlades(codes)]);
+    return Promise.all([drawOrders(codes), drawBlades()]);
   };
   byId("of_blade").addEventListener("input", (event) => take(event.target.value));
-  if (has("blade_most")) byId("by_blade").on("plotly_click", (event) => take(event.points[0].x));
-  else byId("by_blade").parentElement.hidden = true;
+  byId("by_blade").on("plotly_click", (event) => take(event.points[0].x));
 }

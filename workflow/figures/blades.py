@@ -5,7 +5,7 @@ from matplotlib.figure import Figure
 
 from simulate.signals import leading_gap
 from workflow.figures import style, units
-from workflow.figures.annotations import mark_speeds
+from workflow.figures.annotations import hatch, mark_speeds
 from workflow.figures.response import Response
 
 DECADES = 2  # of the scale of amplitudes
@@ -40,6 +40,7 @@ def draw(sweep: Response) -> Figure:
         below.plot(speeds, of(of_blades, axis=1), dashes, color=style.BLACK, label=name)
     below.set(ylabel=label, ylim=(0, None))
     below.legend(loc="upper left")
+    hatch(drawn, (top, below), sweep, "spectrum")
     top.set_xlim(style.limits(sweep.speeds))
     mark_speeds(top, sweep)
     units.show(below.xaxis, style.below, *sweep.units["speed"])

@@ -25,7 +25,7 @@ PASSES = 3200  # most of the tips, of a run that goes on until it is steady
 COLUMNS = {  # of the page, by number
     "speed": "EO {}: Ω / f₁(0)",
     "amplitude_um": "amplitude, µm",
-    "median_um": "median blade",
+    "median_um": "median",
     "largest_um": "largest u_r, µm",
     "steady": "later, µm",
 }
