@@ -426,7 +426,7 @@ def press(strips, covered, eps_p, i, w, w_from, lean, lean_from, energies):
     strip.stored = stored
     # of liner that bears in no step, too (``lengthened``)
     energies[PLASTIC] += worn * volume * strips.lengthened[i]
-    energies[WORN] += deeper * volume
+    energies[WORN] += deeper * volume * strips.lengthened[i]
     energies[CASING] += (supplied + (strips.lengthened[i] - 1) * worn) * volume
     area = strips.area[i]  # A_i of Eq. (17)
     return t_N * area, t_T * area, moment * area, deepest

@@ -51,6 +51,7 @@ def single(u, wear, forces=1.0, status="ok", **places):
     of |= dict.fromkeys(("force_peak", "force_mean", "force_tangential_mean"), force)
     one = dict.fromkeys(("width", "radius"), np.full(len(wear), len(wear) ** -0.5)) | places
     setup = SimpleNamespace(places=SimpleNamespace(**one), steps=4096, Omega=100.0)
+    of["wear_share"] = 1.0
     return Run(MADE, ROM, setup, outcome=Outcome(**of))
 
 
