@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from itertools import groupby
+from math import nan
 from statistics import correlation, median
 from typing import Literal
 
@@ -41,11 +42,11 @@ def worst(of: OfBlades) -> str:
         else f"{len(rub)} of {count} blades rub ({listed(rub) or 'none'})",
         f"the worst is blade {number}: {_off(of, number, differ)}",
     ]
-    if largest[least] > 0:
+    if median(largest) > 0:
         parts.append(
             f"its largest displacement is {largest[number] / median(largest):.3g} times the "
-            f"median, {largest[number] / largest[least]:.3g} times that of blade {least}, which "
-            f"moves least: {_off(of, least, differ)}"
+            f"median, {largest[number] / (largest[least] or nan):.3g} times that of blade {least}, "
+            f"which moves least: {_off(of, least, differ)}"
         )
     with_each = [
         f"{correlation(largest, values, method='ranked'):+.1f} with {name}"

@@ -565,7 +565,7 @@ def csv(summary: Mapping[str, Any]) -> str:
     """One row for each peak, units in the header; cells are empty where nothing is known."""
     of_all = [(scene, row) for scene in summary["scenes"] for row in scene["rows"]]
     staged = any(row["blades"] for _, row in of_all)
-    records = [_record(*of) | (_of_blades(of[1]) if staged else {}) for of in of_all]
+    records = [_record(*of) | (_of_blades(*of) if staged else {}) for of in of_all]
     return csv_text([*records[:1], *(record.values() for record in records)])
 
 
@@ -620,16 +620,16 @@ def _record(scene: Mapping[str, Any], row: PeakRow) -> dict[str, Any]:
     }
 
 
-def _of_blades(row: PeakRow) -> dict[str, Any]:
-    """Cells of a row on the blades of a stage; of one blade its number alone."""
-    of = row["blades"] or {"worst": 0, "rub": [], "longer": [0.0], "frequencies": [0.0]}
-    worst, spreads = of["worst"], {column.name: spread for column, spread in _over_blades(row)}
+def _of_blades(scene: Mapping[str, Any], row: PeakRow) -> dict[str, Any]:
+    """Cells of a row on the blades; their number alone where no run told more of them."""
+    of, spreads = row["blades"], {column.name: spread for column, spread in _over_blades(row)}
+    worst = of and of["worst"]
     return {
-        "blades": len(of["longer"]),
-        "blades that rub": " ".join(map(str, of["rub"])),
+        "blades": scene["blades"],
+        "blades that rub": " ".join(map(str, of["rub"])) if of else "",
         "worst blade": worst,
-        "worst blade longer (um)": _digits(of["longer"][worst], 1e6),
-        "worst blade frequencies (%)": _digits(of["frequencies"][worst], 1e2),
+        "worst blade longer (um)": _digits(of and of["longer"][worst], 1e6),
+        "worst blade frequencies (%)": _digits(of and of["frequencies"][worst], 1e2),
         **{
             f"{column.name} {what}{unit}": _digits(
                 getattr(spreads.get(column.name), key, None), scale

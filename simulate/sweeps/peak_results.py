@@ -269,7 +269,7 @@ def _with_errors(
         peak,
         verdict=CHAOTIC if chaotic else TWO_MOTIONS if both else ONE_MOTION,
         numbers=first,
-        blades=of_blades(run, peak) if case.scene.stage else None,
+        blades=of_blades(run, peak) if len(run.outcome.blades) > 1 else None,
         errors={
             name: abs(value)
             * hypot(*filter(isfinite, (part.get(name, 0.0) for part in parts.values())))

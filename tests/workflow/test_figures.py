@@ -1011,7 +1011,23 @@ def test_quantiles_over_seeds_are_told_apart_for_other_columns(over_seeds):
         ("30", needed) for needed in ("5", "29", "59", "299")
     }
     assert all(float(row["low"]) <= float(row["value"]) <= float(row["high"]) for row in rows)
-    assert "EO 4 critical speed (rpm)" in {row["number"] for row in rows}
+    assert {row["number"] for row in rows} == {designs.LARGEST, designs.DEEPEST}
+
+
+def test_draws_without_a_number_are_counted_and_words_beside_seeds_are_drawn(over_seeds):
+    """Of one draw the quantile is itself; where all are refused nothing is drawn."""
+    words = over_seeds.isel(row=[0, 1]).assign(
+        {"liner.law.kind": ("row", ["plastic", "elastic"], {"long_name": "given"})}
+    )
+    values = [np.nan, 2e-6]
+    lacking = words.assign({"largest_amplitude": ("row", values), "largest_wear": ("row", values)})
+    rows = list(csv.DictReader(designs.quantiles(lacking).splitlines()))
+    assert {(row["liner.law.kind"], row["rows"], row["draws"]) for row in rows} == {
+        ("elastic", "1", "1")
+    }
+    drawn = designs.distribution(lacking)
+    labels = [text.get_text() for text in drawn.legends[0].get_texts()]
+    assert len(labels) == 1 and "liner.law.kind elastic, 1 draws" in labels[0]
 
 
 def test_every_marked_peak_stands_on_a_curve(sweep, rom):

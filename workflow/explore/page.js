@@ -304,7 +304,7 @@ function showAnswers(codes) {
   const table = ({ heads, rows }) => `<thead><tr>${cells("th", heads)}</tr></thead><tbody>` +
     rows.map((row) => `<tr>${cells("td", row)}</tr>`).join("") + "</tbody>";
   ["peaks", "loads", "blades", "margins"].forEach((name, i) => { byId(name).innerHTML = table(told.tables[i]); });
-  byId("margins").parentElement.hidden = !told.tables[3].rows.length;
+  ["blades", "margins"].forEach((name, i) => { byId(name).parentElement.hidden = !told.tables[2 + i].rows.length; });
   byId("notes").innerHTML = told.notes.map((note) => `<li>${text(note)}</li>`).join("");
   byId("explained").textContent = told.meaning;
   ["peaks", "loads"].forEach((name) => byId(name).querySelectorAll("tbody tr").forEach((row, i) =>

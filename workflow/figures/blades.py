@@ -9,7 +9,7 @@ from workflow.figures.annotations import hatch, mark_speeds
 from workflow.figures.response import Response
 
 DECADES = 2  # of the scale of amplitudes
-LINES = {"most": ("-", np.nanmax), "median": ("--", np.nanmedian), "least": (":", np.nanmin)}
+LINES = {"most": ("-", np.max), "median": ("--", np.median), "least": (":", np.min)}
 
 
 @style.styled
@@ -21,15 +21,13 @@ def draw(sweep: Response) -> Figure:
     drawn, (top, below) = style.subplots(style.DOUBLE, 3.8, 2, sharex=True, height_ratios=(3, 2))
     unit, _ = sweep.units["length"]
     along = sweep.sweep["blade_along"].max("order").values / leading_gap(sweep.sweep)
-    of_blades = unit.scale * along[sweep.has_result]
-    speeds, blades = sweep.speeds[sweep.has_result], np.arange(of_blades.shape[1])
+    of_blades, speeds = unit.scale * along, sweep.speeds  # nan without a result
+    blades = np.arange(of_blades.shape[1] + 1)
     edges, cells = style.over_speeds(speeds, of_blades)
-    scale = style.decades(of_blades.max(), DECADES)
+    scale = style.decades(np.nan_to_num(of_blades).max(), DECADES)
     label = f"amplitude\n{unit.label}"
-    style.log_map(
-        top, edges, style.edges(blades), cells.T, scale, label=label, extend="min", pad=0.01
-    )
-    worst = sweep.sweep["worst"].values[sweep.has_result]
+    style.log_map(top, edges, blades - 0.5, cells.T, scale, label=label, extend="min", pad=0.01)
+    worst = np.where(sweep.has_result, sweep.sweep["worst"].values, np.nan)
     top.plot(
         speeds, worst, "o", color=style.BLUE, markerfacecolor="none", markersize=3, label="worst"
     )
@@ -44,5 +42,5 @@ def draw(sweep: Response) -> Figure:
     top.set_xlim(style.limits(sweep.speeds))
     mark_speeds(top, sweep)
     units.show(below.xaxis, style.below, *sweep.units["speed"])
-    drawn.suptitle(f"{sweep.names}: {len(blades)} blades over one liner", fontsize=8)
+    drawn.suptitle(f"{sweep.names}: {of_blades.shape[1]} blades over one liner", fontsize=8)
     return drawn

@@ -17,7 +17,6 @@ from workflow.many.design import SEED
 from workflow.many.design_tables import Rows
 from workflow.many.sobol import indices
 
-NUMBERS = ("(µm)", "(rpm)", "(N)")  # units that end the columns of numbers
 LARGEST, DEEPEST = "largest amplitude (µm)", "deepest wear (µm)"  # of all runs of a row
 VALUE = "value (in the unit of its key)"
 QUANTITIES = {"largest_amplitude": "largest amplitude", "largest_wear": "deepest wear"}
@@ -61,13 +60,12 @@ def csv(rows: Rows) -> str:
 
 
 def quantiles(rows: xr.Dataset) -> str:
-    """Quantiles of the numbers of the rows over the seeds as CSV, each with its interval.
+    """Quantiles of largest amplitude and deepest wear over the seeds as CSV, with intervals.
 
     Apart for each value of the other columns of the design.
     """
     frame = table(rows)
-    numbers = [name for name in frame if name.endswith(NUMBERS)]
-    return over_seeds.table(frame, _no_seeds(rows), numbers).to_csv(
+    return over_seeds.table(frame, _no_seeds(rows), [LARGEST, DEEPEST]).to_csv(
         index=False, float_format="%.6g"
     )
 
@@ -89,7 +87,9 @@ def distribution(rows: Rows) -> Figure:
     for axes, name in zip(panels, (LARGEST, DEEPEST), strict=True):
         for (values, frame), (_, color) in zip(groups, cycle(lines.LOOKS)):
             draws = frame[name].dropna()
-            said = [f"{key} {value:g}" for key, value in values.items()]
+            if not len(draws):
+                continue
+            said = [f"{key} {value}" for key, value in values.items()]
             axes.ecdf(draws, color=color, label=", ".join([*said, f"{len(draws)} draws"]))
             for share in over_seeds.SHARES:
                 of = over_seeds.quantile(draws, share)

@@ -1,4 +1,4 @@
-"""Quantiles of the numbers of rows that differ by their seeds, with bootstrap intervals."""
+"""Quantiles of the numbers of rows that differ by their seeds, with their intervals."""
 
 from collections.abc import Iterable, Sequence
 from math import ceil, log
@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import ArrayLike
 
-from workflow.many.sobol import LEVEL, RESAMPLES
+from workflow.many.sobol import LEVEL
 
 SHARES = (0.1, 0.5, 0.9, 0.95, 0.99)
 
@@ -19,7 +19,7 @@ class Quantile(NamedTuple):
     value: float
     low: float
     high: float
-    draws: int
+    draws: int  # with the number
     draws_needed: int  # as of ``needed``
 
 
@@ -35,32 +35,33 @@ def needed(share: float) -> int:
 
 
 def quantile(values: ArrayLike, share: float) -> Quantile:
-    """Quantile of draws, at least two, with its percentile bootstrap interval (Efron 1979)."""
-    from scipy.stats import bootstrap  # a slow import, which many jobs do not need
+    """Quantile of draws, with the interval of their order statistics, of any distribution.
 
-    draws = np.asarray(values, float)
-    found = bootstrap(
-        (draws,),
-        lambda drawn, axis: np.quantile(drawn, share, axis=axis),
-        n_resamples=RESAMPLES,
-        confidence_level=LEVEL,
-        method="percentile",
-        rng=np.random.default_rng(1),
-    ).confidence_interval
-    value = float(np.quantile(draws, share))
-    return Quantile(value, float(found.low), float(found.high), len(draws), needed(share))
+    Ends are draws whose ranks bound a binomial number of 95 % (Hahn and Meeker 1991, 5.2): with too
+    few draws the interval ends at the last of them.
+    """
+    from scipy.stats import binom  # a slow import, which many jobs do not need
+
+    draws = np.sort(np.asarray(values, float))
+    n, tails = len(draws), [(1 - LEVEL) / 2, (1 + LEVEL) / 2]
+    low, high = (int(rank) for rank in binom.ppf(tails, n, share))
+    ends = float(draws[max(low - 1, 0)]), float(draws[min(high, n - 1)])
+    return Quantile(float(np.quantile(draws, share)), *ends, n, needed(share))
 
 
 def table(rows: pd.DataFrame, by: Sequence[str], numbers: Iterable[str]) -> pd.DataFrame:
-    """A line for each share of each of the ``numbers``, columns of ``rows``, of at least two draws.
+    """A line for each share of each of the ``numbers``, columns of ``rows``.
 
-    ``by``: columns other than seeds in which the rows differ; each of their values is told apart.
+    Draws are the rows that have the number. ``by``: columns other than seeds in which the rows
+    differ; each of their values is told apart.
     """
     return pd.DataFrame(
-        values | {"number": name, "quantile": share} | quantile(draws, share)._asdict()
+        values
+        | {"number": name, "quantile": share, "rows": len(group)}
+        | quantile(draws, share)._asdict()
         for values, group in apart(rows, by)
         for name, draws in ((name, group[name].dropna()) for name in numbers)
-        for share in (SHARES if len(draws) > 1 else ())
+        for share in (SHARES if len(draws) else ())
     )
 
 

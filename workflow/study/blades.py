@@ -124,6 +124,9 @@ def _later(rows: pd.DataFrame, k: int, share: float) -> str:
 
 def _shown(values: pd.Series, share: float) -> str:
     """A value; of draws their quantile with its interval. Less than ``LEAST`` is 0."""
-    found = quantile(values, share)[:3] if len(values) > 1 else values
+    known = values.dropna().astype(float)
+    if not len(known):
+        return "-"
+    found = quantile(known, share)[:3] if len(values) > 1 else known
     value, *interval = (f"{of if of >= LEAST else 0:.3g}" for of in found)
     return f"{value} ({' to '.join(interval)})" if interval else value
