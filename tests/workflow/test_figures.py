@@ -384,9 +384,10 @@ def of_blades(sweep, rom):
     """Three blades, the second of which has half of the amplitudes, the third a quarter."""
     scene = Scene.load(ROOT / "workflow/scenes/hand-e1.yaml").but(stage={"count": 3})
     along = np.linspace(2.0, 0.5, len(SPEEDS))[:, None, None] * [[[1.0], [0.5], [0.25]]]
+    along[~Response(sweep, rom).has_result] = np.nan
     variables = {
         "blade_along": (("speed_over_f1", "blade", "order"), GAP * along),
-        "worst": ("speed_over_f1", np.zeros(len(SPEEDS), int)),
+        "worst": ("speed_over_f1", np.arange(len(SPEEDS)) % 3),
     }
     staged = sweep.assign(variables).assign_coords(blade=range(3))
     return Response(staged.assign_attrs(attrs_of(scene, "mine")), rom)
@@ -993,11 +994,12 @@ def test_blades_of_a_stage_are_drawn_by_number_and_speed(of_blades, figure):
     has_result = of_blades.has_result
     (mesh,) = top.collections
     cells = np.ma.filled(mesh.get_array(), np.nan)[:, ::2]
-    most = np.linspace(2.0, 0.5, len(SPEEDS))[has_result]
+    most = np.where(has_result, np.linspace(2.0, 0.5, len(SPEEDS)), np.nan)
     np.testing.assert_allclose(cells, np.outer([1, 0.5, 0.25], most), rtol=1e-12)
     for line, share in zip(below.lines, [1, 0.5, 0.25], strict=True):
         np.testing.assert_allclose(line.get_ydata(), share * most)
-    np.testing.assert_array_equal(points(top, "o")[:, 1], 0 * most)
+    worst = np.where(has_result, np.arange(len(SPEEDS)) % 3, np.nan)
+    np.testing.assert_array_equal(points(top, "o")[:, 1], worst)
 
 
 def test_quantiles_over_seeds_are_told_apart_for_other_columns(over_seeds):
