@@ -10,7 +10,7 @@ from geometry.base import read_json
 from workflow.readme import printed
 
 PAGE = (ROOT / "workflow/how-do-i.md").read_text()
-FILES = dict(re.findall(r"```(?:yaml|csv)\n# (\S+)\n(.*?)```", PAGE, re.DOTALL))
+FILES = dict(re.findall(r"```(?:yaml|text)\n# (\S+)\n(.*?)```", PAGE, re.DOTALL))
 PYTHON = re.findall(r"```python\n(.*?)```", (ROOT / "README.md").read_text() + PAGE, re.DOTALL)
 NAMES = [
     path.split("/")[-1].removesuffix(".yaml") for path in FILES if re.search("/scenes/.*yaml", path)
