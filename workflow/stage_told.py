@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from itertools import groupby
-from math import nan
 from statistics import correlation, median
 from typing import Literal
 
@@ -43,11 +42,11 @@ def worst(of: OfBlades) -> str:
         f"the worst is blade {number}: {_off(of, number, differ)}",
     ]
     if median(largest) > 0:
-        parts.append(
-            f"its largest displacement is {largest[number] / median(largest):.3g} times the "
-            f"median, {largest[number] / (largest[least] or nan):.3g} times that of blade {least}, "
-            f"which moves least: {_off(of, least, differ)}"
-        )
+        parts += [
+            f"its largest displacement is {largest[number] / median(largest):.3g} times the median",
+            f"blade {least} moves least, by {largest[least] / largest[number]:.3g} of it: "
+            f"{_off(of, least, differ)}",
+        ]
     with_each = [
         f"{correlation(largest, values, method='ranked'):+.1f} with {name}"
         for name in differ

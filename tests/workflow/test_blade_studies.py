@@ -166,7 +166,7 @@ def test_the_table_of_blades_has_rows_and_quantiles_of_draws():
     heads, _, one, casing, half, last = blades.table(rows).splitlines()
     assert heads.count("EO 4: Ω / f₁(0)") == heads.count("EO 5: Ω / f₁(0)") == 1
     later = "liner-exhausted, not steady after 212 rev."
-    assert one.startswith(f"| one blade | 0.37 | 74 | 0 | 9 | {later} | 0.37 ")
+    assert one.startswith(f"| 20 revolutions: one blade | 0.37 | 74 | 0 | 9 | {later} | 0.37 ")
     assert casing.startswith("| casing: 400 Hz | 0.37 | 64 ")
     assert "| 128, not steady after 212 rev. |" in casing
     exact = np.quantile(80.0 + np.arange(10), [0.5, 0.9])

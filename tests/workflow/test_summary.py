@@ -222,26 +222,26 @@ STAGE = {  # the third blade is long, rubs alone, and is not the one that moves 
         (
             {},
             "4 of 5 blades rub (0 to 2, 4); the worst is blade 1: length +0 µm; its largest "
-            "displacement is 1.67 times the median, 5 times that of blade 2, which moves least: "
+            "displacement is 1.67 times the median; blade 2 moves least, by 0.2 of it: "
             "length +8 µm (the longest)",
         ),
         (
             {"longer": [0.0] * 5, "rub": [0, 1, 2, 3, 4]},
             "all 5 blades rub; the worst is blade 1: equal to the others; its largest "
-            "displacement is 1.67 times the median, 5 times that of blade 2, which moves least: "
+            "displacement is 1.67 times the median; blade 2 moves least, by 0.2 of it: "
             "equal to the others",
         ),
         (
             {"longer": [0.0] * 5, "frequencies": [0, -0.02, 0, 0, 0], "rub": []},
             "0 of 5 blades rub (none); the worst is blade 1: frequencies -2 % (the lowest); its "
-            "largest displacement is 1.67 times the median, 5 times that of blade 2, which moves "
-            "least: frequencies +0 %",
+            "largest displacement is 1.67 times the median; blade 2 moves least, by 0.2 of it: "
+            "frequencies +0 %",
         ),
         (
             {"longer": [3e-6, 4e-6, 0.0, 1e-6, 2e-6]},
             "4 of 5 blades rub (0 to 2, 4); the worst is blade 1: length +4 µm (the longest); its "
-            "largest displacement is 1.67 times the median, 5 times that of blade 2, which moves "
-            "least: length +0 µm (the shortest); rank correlation +0.8 with length",
+            "largest displacement is 1.67 times the median; blade 2 moves least, by 0.2 of it: "
+            "length +0 µm (the shortest); rank correlation +0.8 with length",
         ),
     ],
     ids=["one long", "all equal", "one soft", "scatter"],

@@ -42,9 +42,7 @@ def table(rows: xr.Dataset) -> pd.DataFrame:
         for k in rows["order"].values[reported.any("row")]
         for name, values in by_quantity.items()
     }
-    row_columns = {
-        name: values for name, values in rows.items() if values.attrs.get("long_name") == "given"
-    } | {
+    row_columns = given(rows) | {
         LARGEST: MICRO * rows["largest_amplitude"],
         DEEPEST: MICRO * rows["largest_wear"],
         "runs": rows["runs"],
@@ -52,6 +50,15 @@ def table(rows: xr.Dataset) -> pd.DataFrame:
         **({"why": rows["why"]} if (rows["why"] != "").any() else {}),
     }
     return xr.Dataset(row_columns | by_order).to_dataframe()
+
+
+def given(rows: xr.Dataset) -> dict[str, xr.DataArray]:
+    """Values (rows,) of the columns that the design gives."""
+    return {
+        str(name): values
+        for name, values in rows.items()
+        if values.attrs.get("long_name") == "given"
+    }
 
 
 def csv(rows: Rows) -> str:
@@ -72,8 +79,7 @@ def quantiles(rows: xr.Dataset) -> str:
 
 def _no_seeds(rows: xr.Dataset) -> list[str]:
     """Columns that the design gives, but for seeds."""
-    given = (name for name, values in rows.items() if values.attrs.get("long_name") == "given")
-    return [name for name in map(str, given) if not name.endswith(SEED)]
+    return [name for name in given(rows) if not name.endswith(SEED)]
 
 
 @style.styled

@@ -88,11 +88,10 @@ def table(rows: Sequence[ComputedRow]) -> str:
                 for share in shares
             ]
         else:
-            named = (
-                "" if "blade" in row or "equal" in row else f"{group}: " for row in these["row"]
-            )
-            each = zip(named, these["row"], these.groupby("row", sort=False), strict=True)
-            lines += [[f"{of}{row}", *_cells(one, 0.5)] for of, row, (_, one) in each]
+            lines += [
+                [f"{group}: {row}", *_cells(one, 0.5)]
+                for row, one in these.groupby("row", sort=False)
+            ]
     heads = [head.format(k) for k in ORDERS for head in COLUMNS.values()]
     return markdown.table(["blades", *heads], lines)
 
@@ -108,14 +107,8 @@ def _cells(rows: pd.DataFrame, share: float) -> list[str]:
 
 def _later(rows: pd.DataFrame, k: int, share: float) -> str:
     """Amplitude of the runs that go on, and how many of them are steady in the end."""
-    of = {
-        name: rows[f"EO {k} steady {name}"]
-        for name in ("amplitude_um", "trend", "rounds", "status")
-    }
-    steady, amplitudes = (
-        int((of["trend"] == STEADY).sum()),
-        of["amplitude_um"].dropna().astype(float),
-    )
+    of = rows.filter(like=f"EO {k} steady").rename(columns=lambda name: name.split()[-1])
+    steady, amplitudes = int((of["trend"] == STEADY).sum()), of["amplitude_um"].dropna()
     shown = _shown(amplitudes, share) if len(amplitudes) else of["status"].iloc[0]
     if len(rows) > 1:
         return f"{shown}; {steady} steady"
