@@ -311,6 +311,12 @@ def settings_of_basis(basis: EnrichedBasis | PaperBasis) -> dict[str, Any]:
     return basis.model_dump(mode="json", exclude={"tolerance_percent"})
 
 
+def given_frequencies(measured: dict[int, float]) -> dict[str, Any]:
+    """Settings on which a reduced model of ``measured`` frequencies depends; none without."""
+    by_mode = {str(mode): measured[mode] for mode in sorted(measured)}
+    return {"frequencies_Hz": by_mode} if measured else {}
+
+
 MODES, ORDERS = 4, range(1, 17)  # whose linear crossings are told
 
 
@@ -330,6 +336,15 @@ class Margins(Settings):
         description="Their engine orders; those of casings are added",
     )
 
+
+Measured = Annotated[
+    dict[Annotated[int, Field(ge=1, le=100)], Annotated[float, Field(gt=0, le=1e6)]],
+    Field(
+        default={},
+        description="Natural frequencies measured at rest (Hz), by mode, from 1, in place of those "
+        "of the clamped blade; within 10 % of them",
+    ),
+]
 
 MPa = Annotated[float, Field(gt=0, le=1e4)]
 
@@ -427,6 +442,7 @@ class Blade(SettingsFile):
         "static solve",
     )
     basis: Basis = Field(default=EnrichedBasis(), description="Reduction basis")
+    frequencies_Hz: Measured
 
     @checked
     def _mesh_of_its_source(self) -> None:
@@ -516,7 +532,8 @@ class Blade(SettingsFile):
 
     def settings_of_model(self) -> dict[str, Any]:
         """Settings on which the reduced model depends, besides the mesh and its directions."""
-        return self.settings_of_matrices() | {"basis": settings_of_basis(self.basis)}
+        of_basis = {"basis": settings_of_basis(self.basis)}
+        return self.settings_of_matrices() | of_basis | given_frequencies(self.frequencies_Hz)
 
     @property
     def operating_rpm(self) -> dict[str, float]:

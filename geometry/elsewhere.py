@@ -25,7 +25,9 @@ from geometry.blade import (
     Blade,
     EnrichedBasis,
     Margins,
+    Measured,
     MeshFile,
+    given_frequencies,
     settings_of_basis,
 )
 from geometry.frame import LENGTHS
@@ -43,8 +45,9 @@ class ModelElsewhere(SettingsFile):
     key: ClassVar[str] = "reduced_model"
 
     reduced_model: File = Field(
-        description="File of the reduced model, from the folder of the blade's YAML; the only key"
+        description="File of the reduced model, from the folder of the blade's YAML"
     )
+    frequencies_Hz: Measured
 
     top_speed: ClassVar[None] = None  # Omega_m is in the file
     operating_rpm: ClassVar[dict[str, float]] = {}
@@ -57,7 +60,7 @@ class ModelElsewhere(SettingsFile):
 
     def settings_of_model(self) -> dict[str, Any]:
         """Settings on which the reduced model depends, besides its file."""
-        return {}
+        return given_frequencies(self.frequencies_Hz)
 
     def hash_of_files(self, folder: Path) -> str:
         """Hash of the model's file, which is in ``folder``."""
@@ -139,6 +142,7 @@ class MatricesElsewhere(SettingsFile):
         default=None, gt=0, description="Omega_m (rpm), where K is given at rest alone"
     )
     basis: EnrichedBasis = Field(default=EnrichedBasis(), description="Reduction basis")
+    frequencies_Hz: Measured
 
     @checked
     def _one_row_of_S(self) -> None:
@@ -210,7 +214,8 @@ class MatricesElsewhere(SettingsFile):
 
     def settings_of_model(self) -> dict[str, Any]:
         """Settings on which the reduced model depends, besides the files and its directions."""
-        return self.settings_of_matrices() | {"basis": settings_of_basis(self.basis)}
+        of_basis = {"basis": settings_of_basis(self.basis)}
+        return self.settings_of_matrices() | of_basis | given_frequencies(self.frequencies_Hz)
 
 
 type AnyBlade = Blade | ModelElsewhere | MatricesElsewhere

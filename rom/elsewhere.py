@@ -35,7 +35,7 @@ from rom.model import CODE, DIRECTIONS, Rom, RomError
 
 NAMES = tuple(DIRECTIONS.values())
 ALLOWED = (NAMES[:1], NAMES[:2], NAMES, NAMES[::2])  # of the interface DoFs
-OPTIONAL_ARRAYS = ("points", "growth", "advance", "speeds", "slope", "u_t", "sides")
+OPTIONAL_ARRAYS = ("points", "growth", "advance", "speeds", "slope", "u_t", "sides", "measured")
 OPTIONAL = (*OPTIONAL_ARRAYS, "f1", "across", "gauges", "gauge_rows")
 PAGE = "rom/README.md, A reduced model from elsewhere,"
 SPEEDS = 33  # over [0, Omega_m], at which K must be positive definite

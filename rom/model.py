@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eigh
+from scipy.optimize import linear_sum_assignment
 
 from geometry.base import RPM, Provenance, UserError, require
 from geometry.hats import hats, lean, mean, middles, over_edges, projection
@@ -115,6 +116,14 @@ class Rom(Stored):
         "edge timed_dof",
         default_factory=lambda: np.empty((0, 0)),
         long_name="tangential displacement at xi = 1/16 and 15/16, which blade tip timing measures",
+    )
+    # (modes, 3): numbers, from 1, of modes whose frequencies at rest are given; these frequencies
+    # of the clamped blade, and as given (``rom.measured``)
+    measured: NDArray[np.float64] = stored(
+        "measured_mode number_clamped_given",
+        "1, Hz, Hz",
+        default_factory=lambda: np.empty((0, 3)),
+        long_name="natural frequencies at rest given in place of those of the clamped blade",
     )
     # names of the grids of strain gauges; none but in a model that is made for a scene
     gauges: tuple[str, ...] = stored("gauge", default_factory=tuple)
@@ -349,6 +358,14 @@ class Rom(Stored):
                 f"linear"
             )
         return np.sqrt(values), Phi
+
+    def families(self, Omega: float) -> NDArray[np.int64]:
+        """Family (n,), from 0, of each mode at Omega, rad/s: the mode at rest most like it.
+
+        Of the pairings of all modes with those at rest that of the largest sum of (phi^T M phi)^2.
+        """
+        likeness = (self.modes(0.0)[1].T @ self.M @ self.modes(Omega)[1]) ** 2
+        return linear_sum_assignment(likeness.T, maximize=True)[1]
 
     def beyond(self, degree: int) -> Callable[[float], NDArray[np.float64]]:
         """Natural frequencies omega (n,), rad/s, over Omega above Omega_m, rad/s.

@@ -21,6 +21,7 @@ TIMESTAMP, INT, FLOAT, *OF_KEYS = (
 # A number without leading zeros, which make it octal, and not in sixties, as 1:30. Whole ones have
 # as many digits as Python reads; others have a point.
 IN_DECIMALS = re.compile(r"[-+]?(0|[1-9](_*[0-9]){0,4299}_*)|[^:]*\.[^:]*")
+WHOLE = re.compile(r"0|[1-9][0-9]{0,9}")  # a number that may be a key
 
 type Keys = tuple[str, ...]  # from the root, items of lists by their numbers
 
@@ -125,17 +126,19 @@ def _locate(node: yaml.Node, keys: Keys, lines: dict[Keys, int]) -> None:
 
 
 def _name(key: yaml.Node) -> str:
-    """Text of a key.
+    """Text of a key; a whole number is its digits.
 
     Raises
     ------
     SettingsError
         When it is no text, or none for a line of a message.
     """
+    if key.tag == INT and WHOLE.fullmatch(key.value):
+        key.tag = OF_KEYS[0]
     if key.tag not in OF_KEYS:
         raise _refused(
-            f"key {shown(key.value)}: is no name: write a text, in quotes if it is a number, yes, "
-            "no, on or off",
+            f"key {shown(key.value)}: is no name: write a text, in quotes if it is yes, no, on, "
+            "off, or a number that is not whole",
             key.start_mark,
         )
     if not key.value.isprintable() or not 0 < len(key.value) <= LONGEST_KEY:

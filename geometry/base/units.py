@@ -32,7 +32,7 @@ def in_rpm(rad_s: float) -> float:
 
 
 class Former(NamedTuple):
-    """A key of 0.3.0: its key now, the number in its unit, and back."""
+    """A key of 0.3.0, or another spelling: its key now, the number in its unit, and back."""
 
     now: str
     to_now: Callable[[float], float]
@@ -55,6 +55,7 @@ FORMER = {
         f"{name}rad_s": Former(f"{name}rpm", in_rpm, lambda rpm: rpm / RPM)
         for name in ("", "speed_", "max_speed_")
     },
+    "frequencies_hz": Former("frequencies_Hz", float, float),
 }
 # each key by the other one of the same quantity
 OTHER = {

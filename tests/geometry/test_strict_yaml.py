@@ -13,6 +13,11 @@ BOMB = "a: &a [x,x,x,x,x,x,x,x,x]\n" + "".join(
 )
 
 
+def test_whole_number_as_a_key_is_its_digits():
+    """As of modes, where a mapping has one for each."""
+    assert parse("{1: 612, 12: x}")[0] == {"1": 612, "12": "x"}
+
+
 @pytest.mark.parametrize(
     ("text", "value"),
     [
@@ -41,7 +46,9 @@ def test_value_that_is_read(text, value):
         ("a: !!null 5", 1),
         ("a: [1,\nb: 2", 2),
         ("a: 1\nb: {c: 1,\n c: 2}", 3),
-        ("7: a", 1),
+        ("7.5: a", 1),
+        ("07: a", 1),
+        ('7: a\n"7": b', 2),
         ("on: a", 1),
         ("[a]: 1", 1),
         ('"a\\nb": 1', 1),

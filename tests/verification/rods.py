@@ -33,8 +33,11 @@ def of_end(
     directions: tuple[str, ...],
     length: float,
     highest: float,
+    by_rotation: NDArray[np.float64] | None = None,
 ) -> Rom:
     """Model of matrices whose first DoFs are the displacements of the end in some directions.
+
+    ``by_rotation``: what each Omega^2 adds to ``K``.
 
     The interface has two places: the end is a rigid face, whose tilts, of masses and stiffnesses of
     their own, the force in its middle does not move.
@@ -44,14 +47,14 @@ def of_end(
     to_both = np.eye(n + many)
     to_both[: 2 * many, : 2 * many] = np.kron([[0.5, 0.5], [0.5, -0.5]], np.eye(many))
     with_tilts = np.r_[:many, n : n + many, many:n]
-    M, K = (
+    M, K, *more = (
         to_both.T @ block_diag(A, A.max() * np.eye(many))[np.ix_(with_tilts, with_tilts)] @ to_both
-        for A in (M, K)
+        for A in (M, K, *(() if by_rotation is None else (by_rotation,)))
     )
     ends = np.linspace(0, WIDTH, 3)
     return Rom(
         M=M,
-        K=K[None],
+        K=np.stack([K, *more]),
         directions=directions,
         xi=np.array([0.0, 1.0]),
         points=np.zeros((0, 3)),
@@ -96,3 +99,17 @@ def scene_of(law: dict, gap: float, **more: object) -> Scene:
         "liner": liner | {"rods_per_round": RODS},
     }
     return check_settings(Scene, values | more, "rod")
+
+
+def of_modes(
+    omega: NDArray[np.float64], tip: NDArray[np.float64], length: float, highest: float
+) -> Rom:
+    """Model of modes ``omega`` (n,), rad/s, of 1 kg, with displacements (n,) of the end.
+
+    Besides those of its tilt. The first DoF is the end, each other a mode of its own.
+    """
+    own = np.eye(len(omega))
+    own[0] = tip
+    back = np.linalg.inv(own)
+    M, K = (back.T @ np.diag(of) @ back for of in (np.ones_like(omega), omega**2))
+    return of_end(M, K, ("radial",), length, highest)

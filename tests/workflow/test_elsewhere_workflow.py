@@ -6,10 +6,13 @@ import shlex
 import pytest
 import yaml
 from projects import ROOT, make_project
+from refused import refused
 
 from geometry.base import check_settings
 from geometry.elsewhere import MatricesElsewhere
-from rom.model import Rom
+from rom.elsewhere import read_elsewhere
+from rom.model import Rom, RomError
+from workflow.jobs.elsewhere import take
 
 PAGE = (ROOT / "rom/README.md").read_text()
 FOREIGN = ("--config", "scenes=[foreign]")
@@ -40,6 +43,22 @@ def test_foreign_model_serves_a_scene_without_a_mesh(project):
     project.run("results/foreign/rom-r.nc", *FOREIGN)
     rom = Rom.load(project.folder / "results/foreign/rom-r.nc")
     assert rom.elsewhere and rom.provenance.blade == "foreign"
+
+
+def test_measured_frequencies_are_those_of_the_model_that_is_taken(project, tmp_path, capsys):
+    """Told in the log of its job; a shift beyond 10 % is refused by its key."""
+    blades = project.folder / "workflow/blades"
+    source, blade, made = blades / "foreign.nc", blades / "tuned.yaml", tmp_path / "rom-r.nc"
+    f1 = read_elsewhere(source, "foreign").f1
+    blade.write_text(f"reduced_model: foreign.nc\nfrequencies_Hz: {{1: {0.97 * f1}}}\n")
+    take(str(blade), str(source), "r", str(made))
+    rom = Rom.load(made)
+    assert rom.f1 == pytest.approx(0.97 * f1)
+    assert rom.provenance.settings["frequencies_Hz"] == {"1": 0.97 * f1}
+    assert "-3 % from the" in capsys.readouterr().out
+    blade.write_text(f"reduced_model: foreign.nc\nfrequencies_hz: {{1: {0.8 * f1}}}\n")
+    error = refused(RomError, take, str(blade), str(source), "r", str(made))
+    assert error.key == "frequencies_Hz.1"
 
 
 @pytest.mark.parametrize(

@@ -5,6 +5,7 @@ import numpy as np
 from geometry.base import Say
 from rom.check import check, further_speeds
 from rom.full_model import FullModel
+from rom.measured import as_clamped
 from rom.model import Rom
 
 
@@ -20,7 +21,7 @@ def compare(
     checked: str,
     report: Say,
 ) -> None:
-    """Compare both models; at further speeds, too, where neighbours among ``speeds`` disagree.
+    """Compare both models, clamped; at more speeds where neighbours of ``speeds`` disagree.
 
     ``between``: the full model at further speeds, for a blade that has a mesh.
     ``settings``: the blade's file; ``speeds``: of its basis, rad/s, None for matrices from
@@ -31,7 +32,7 @@ def compare(
     rom.model.RomError
         When the error exceeds the tolerance, %.
     """
-    reduced, full_model = Rom.load(rom), FullModel.load(full)
+    reduced, full_model = as_clamped(Rom.load(rom)), FullModel.load(full)
     if between:
         full_model = full_model.joined(FullModel.load(between))
     result = check(reduced, full_model)

@@ -4,6 +4,7 @@ from fem.matrices import Matrices
 from geometry.base import Say
 from geometry.elsewhere import read_blade
 from rom.components import ComponentModes
+from rom.measured import told, with_frequencies
 from rom.reconstruct import Basis
 from rom.reduce import reduce
 
@@ -13,7 +14,9 @@ def make(
 ) -> None:
     """Reduce M and K(Omega), with these ``directions`` of the interface."""
     fom, components = Matrices.load(matrices), ComponentModes.load(modes)
-    reduced, T = reduce(fom, read_blade(blade).basis, directions, tell, components)
-    print(f"n = {reduced.n}, f1(0) = {reduced.f1:.2f} Hz")
+    settings = read_blade(blade)
+    clamped, T = reduce(fom, settings.basis, directions, tell, components)
+    reduced = with_frequencies(clamped, settings.frequencies_Hz)
+    print(f"n = {reduced.n}, f1(0) = {reduced.f1:.2f} Hz", *told(reduced), sep="\n")
     Basis.of(fom, T, reduced.provenance).save(basis)
     reduced.save(rom)

@@ -90,6 +90,7 @@ rule take_rom:
     params:
         contents=blades.contents,
         blade=blades.file,
+        uses=blades.uses("frequencies_Hz"),
     message:
         "Reduced model of blade {wildcards.blade}, from elsewhere"
     script:

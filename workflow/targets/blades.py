@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, Self
 
 from geometry.base import SettingsError, hashes, printable, yaml_file
-from geometry.blade import Blade
+from geometry.blade import Blade, given_frequencies
 from geometry.elsewhere import ELSEWHERE, MatricesElsewhere, ModelElsewhere, read_blade
 from rom.polynomial import basis_speeds, speeds_between
 from workflow.model_cost import costs, nodes_of
@@ -94,8 +94,10 @@ class Blades:
         return settings
 
     def uses_of_basis(self, wildcards: Any) -> Told:
-        """The settings that determine the basis: all but the tolerance of its check."""
-        return Told(self.of(wildcards).basis.model_dump(mode="json", exclude={"tolerance_percent"}))
+        """The settings that determine the model: the basis, without the tolerance of its check."""
+        blade = self.of(wildcards)
+        of_basis = blade.basis.model_dump(mode="json", exclude={"tolerance_percent"})
+        return Told(of_basis | given_frequencies(blade.frequencies_Hz))
 
     def modes_of_basis(self, wildcards: Any) -> int:
         """Number of natural modes that the basis takes at each speed; that of the paper none."""
