@@ -1,5 +1,6 @@
 """Signals of a run: spectra, amplitudes along engine orders, worn lobes; whole records."""
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -36,7 +37,10 @@ def spectrum(u_r: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def lines(
-    u_r: NDArray[np.float64], rounds: int, zeta: float, driven: NDArray[np.bool_]
+    u_r: NDArray[np.float64],
+    rounds: int,
+    zeta: Callable[[NDArray[np.float64]], float | NDArray[np.float64]],
+    driven: NDArray[np.bool_],
 ) -> dict[str, Any]:
     """Lines of the signals ``u_r`` (samples, places) of a whole number of revolutions.
 
@@ -49,7 +53,7 @@ def lines(
 
     Parameters
     ----------
-    zeta : damping ratio of the modes
+    zeta : damping ratios of the modes at orders (k,) of Omega
     driven : (orders,), whether the casing drives the engine orders 1, 2, ...
 
     Returns
@@ -71,7 +75,8 @@ def lines(
     along *= on_order > _around(whole, rounds * orders, width + RESOLVED * resolved) / 2
     kept = np.zeros_like(whole)
     if resolved:
-        free = np.exp(-2 * np.pi * zeta * (rounds - half) * np.arange(last.shape[1]) / half)
+        x = np.arange(last.shape[1])
+        free = np.exp(-2 * np.pi * np.maximum(zeta(x / half), 0) * (rounds - half) * x / half)
         lasting = last > first * np.minimum(1 - FALLS * (1 - free), LASTS)
         rubs = driven & (last > first * (1 - RUBS * (1 - free)))[:, half * orders]
         along *= rubs | lasting[:, half * orders]

@@ -181,7 +181,8 @@ def nearest(campbell: Mapping[str, Any], margins: Iterable[Margin], name: str) -
         found = [*texts, none_of(campbell, *sorted((line_rpm, end)))][0]
         yield f"{name.capitalize()} speed {line_rpm:.0f} rpm, next crossing {side}: {found}."
     for row in [row for row in of_line if not (row["quadratic_rpm"] or row["rpm_to"])][:1]:
-        yield f"{name.capitalize()} speed {line_rpm:.0f} rpm, nearest rub peak: {_text(row)}."
+        kind, *_ = row["what"].partition(" (")
+        yield f"{name.capitalize()} speed {line_rpm:.0f} rpm, nearest {kind}: {_text(row)}."
 
 
 def none_of(campbell: Mapping[str, Any], low: float, high: float) -> str:

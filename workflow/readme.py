@@ -319,15 +319,17 @@ def _allowed(values: list[Schema]) -> str:
         *(value["const"] for value in values if "const" in value),
     ]
     plain = "list" if any(value.get("type") == "array" for value in values) else "number"
-    for value in values:
-        if "properties" in value:
-            return f"{_choices(choices) or plain}, or {_choices(value['properties'])}"
+    keys = [_choices(value["properties"]) for value in values if "properties" in value]
+    if keys:
+        return ", or ".join([_choices(choices) or plain, *keys])
     bounds = [
         f"{sign} {value[bound]}"
         for value in values
         for bound, sign in BOUNDS.items()
         if bound in value
     ]
+    if any(value.get("type") == "number" for value in values) and choices:
+        return f"number, or {_choices(choices)}"
     return _choices(choices) or ", ".join(bounds)
 
 

@@ -87,7 +87,7 @@ PARTS = {  # of uncertainties, that may not be known
 # Values of a scene taken from its answers as they are.
 COPIED = (
     *("scene", "blade", "f1_Hz", "gap_m", "dofs", "status", "reasons", "ends", "swept", "free"),
-    *("checks", "model_error", "no_torque", "mu_crit", "sweep_s", "whirls", "blades"),
+    *("checks", "model_error", "no_torque", "mu_crit", "sweep_s", "whirls", "blades", "assumed"),
 )
 
 COURSE = {  # of ``Course``: unit and its scale from SI
@@ -148,7 +148,7 @@ def _scene(
     )
     rub_peaks = [
         {
-            "what": f"rub peak ({row['course'].get('trend')})" if moves(row) else "rub peak",
+            "what": _what(row),
             "modes": row["modes"],
             "k": row["k"],
             "rpm": row["rpm"],
@@ -177,6 +177,12 @@ def _scene(
             results["seen"],
         ),
     }
+
+
+def _what(row: PeakRow) -> str:
+    """What a peak is: of a blade that does not touch that of its forces."""
+    kind = "forced peak" if row["status"] == "no-contact" else "rub peak"
+    return f"{kind} ({row['course'].get('trend')})" if moves(row) else kind
 
 
 def _row(results: Mapping[str, Any], peak: "Peak", stress: Mapping[str, Any]) -> PeakRow:
@@ -479,6 +485,7 @@ def notes(scene: Mapping[str, Any]) -> list[str]:
     """Crossings, ends of the sweep, operating lines, unknown parts, cost of uncertainties."""
     campbell = scene["operating"]
     lines = [*_without_peaks(scene), *_blades(scene), *crossings_and_ends(scene)]
+    lines += [f"{sentence}." for sentence in scene["assumed"]]
     lines += margins.fed(scene["whirls"])
     for name in campbell["lines"]:
         lines += margins.nearest(campbell, scene["margins"], name)

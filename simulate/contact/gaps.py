@@ -7,7 +7,7 @@ from geometry.base import RPM, Fault, known
 from rom.model import Rom
 from simulate.contact.places import slope_at
 from simulate.scene import Gaps
-from simulate.scene.tables import Shift
+from simulate.scene.tables import OverSpeed, Shift
 
 KNOWN = 1e-9  # relative, by which a speed may lie outside a table over the speed
 
@@ -64,6 +64,23 @@ def _opened(
     return line.radius(z + moved) - line.radius(z)
 
 
+def missing_rows(
+    table: OverSpeed | None, key: str, f1: float, speeds: NDArray[np.float64]
+) -> list[Fault]:
+    """The fault of a ``table`` that does not cover one of the ``speeds``, rad/s; or none."""
+    first, last = table.range(f1) if table else (0.0, np.inf)
+    return [
+        Fault(
+            f"covers {RPM * first:.6g} to {RPM * last:.6g} rpm, not the {RPM * Omega:.6g} rpm of "
+            "speeds: add rows",
+            key,
+            allowed=(RPM * first, RPM * last),
+        )
+        for Omega in speeds
+        if not first * (1 - KNOWN) <= Omega <= last * (1 + KNOWN)
+    ][:1]
+
+
 def growth_fault(
     of: Gaps, rom: Rom, xi: NDArray[np.float64], speeds: NDArray[np.float64]
 ) -> list[Fault]:
@@ -90,17 +107,8 @@ def growth_fault(
         "casing.axial_shift_um": shift if isinstance(shift, Shift) else None,
     }
     for name, table in tables.items():
-        first, last = table.range(rom.f1) if table else (0.0, np.inf)
-        for Omega in speeds:
-            if not first * (1 - KNOWN) <= Omega <= last * (1 + KNOWN):
-                return [
-                    Fault(
-                        f"covers {RPM * first:.6g} to {RPM * last:.6g} rpm, not the "
-                        f"{RPM * Omega:.6g} rpm of speeds: add rows",
-                        name,
-                        allowed=(RPM * first, RPM * last),
-                    )
-                ]
+        if missing := missing_rows(table, name, rom.f1, speeds):
+            return missing
     gaps = np.array(
         [
             gaps_at(of, rom, xi, Omega) - abs(lean_of_gaps(of, rom, xi, Omega)) / 2

@@ -19,7 +19,7 @@ comes and goes within a step, and the area that bears in none where the footprin
 (``Strips.lengthened``), gets and gives up the energy of the rods beside it.
 
 Only the last term is found by subtraction: the energy that the scheme creates (> 0) or loses.
-Blade alone: energy(end) - energy(start) + damping = work, to round-off, with
+Blade alone: energy(end) - energy(start) + damping = work + force, to round-off, with
 
     central differences  E(n+1/2) = w.M w/2 + u_n.K u_{n+1}/2, w = (u_{n+1} - u_n)/h,
                          work F_n.(u_{n+1} - u_{n-1})/2, damping h v_n.D v_n
@@ -57,6 +57,13 @@ class Ledger:
     casing_elastic: float = 0.0  # energy at the end
     casing_damping: float = 0.0  # dissipated in it
     casing_before: float = 0.0  # its energy at the start
+    force: float = 0.0  # work of the engine orders that excite the blade beside the rub
+    fed: float = 0.0  # less in damping: what the modes of a damping below 0 were given
+
+    @property
+    def given(self) -> float:
+        """Energy given to blade and liner, J, at the start and by all but the scheme."""
+        return self.casing + self.elastic_before + max(self.force, 0.0) + self.fed
 
     @property
     def stored_before(self) -> float:

@@ -15,10 +15,11 @@ from simulate.contact.ledger import WORK
 from simulate.contact.rods import cover, press
 from simulate.contact.strips import closest, lean_at
 from simulate.marching.modal import Motion, Scheme, scheme_arrays
+from simulate.scene.damping import Ratios
 
 
 def coefficients(
-    omega: NDArray[np.float64], Phi_b: NDArray[np.float64], zeta: float, h: float
+    omega: NDArray[np.float64], Phi_b: NDArray[np.float64], zeta: Ratios, h: float
 ) -> Scheme:
     """Coefficients of Eqs. (19)-(20) for modes ``omega`` (n,), rad/s, and step ``h``, s.
 
@@ -40,7 +41,7 @@ def coefficients(
 
 def motion_of(
     omega: NDArray[np.float64],
-    zeta: float,
+    zeta: Ratios,
     h: float,
     x: NDArray[np.float64],
     y: NDArray[np.float64],
@@ -51,7 +52,7 @@ def motion_of(
 
 def turns_of(
     omega: NDArray[np.float64],
-    zeta: float,
+    zeta: Ratios,
     h: float,
     q: NDArray[np.float64],
     v: NDArray[np.float64],
@@ -60,7 +61,7 @@ def turns_of(
     return np.array([q, q - h * v]), np.zeros((2, q.size))
 
 
-def energy(omega: NDArray[np.float64], zeta: float, h: float, motion: Motion, now: int) -> float:
+def energy(omega: NDArray[np.float64], zeta: Ratios, h: float, motion: Motion, now: int) -> float:
     """E(n - 1/2) of Krenk 2006 between the last two steps, J; conserved by the free scheme."""
     x, before = motion.x[now, : omega.size], motion.x[now - 1, : omega.size]
     w = (x - before) / h

@@ -17,6 +17,7 @@ from simulate.contact.ledger import (
     ON_CASING,
     PLASTIC,
     RELEASED,
+    SUMS,
     WORK,
     WORN,
     Ledger,
@@ -25,6 +26,7 @@ from simulate.contact.places import SHARES, volume_of
 from simulate.contact.strips import offset
 from simulate.marching.common_casing import Common
 from simulate.marching.ends import EndOfStage, FinalState, final_state
+from simulate.marching.forced import Forced, Moving
 from simulate.marching.kernel import RUNNING, WORN_THROUGH, State
 from simulate.marching.modal import TURNS
 from simulate.marching.moving_casing import CasingMotion
@@ -133,6 +135,7 @@ class Course:
     kept: list[NDArray[np.float64]]  # its records, as of ``room``
     first: int  # revolutions before the start
     before: tuple[float, ...]  # energies at the start, as of ``_stored``
+    started: Moving  # free motion at the start
     at_edges: list[Rounds]
     gauges: NDArray[np.float64]
     most: MostStrained | None
@@ -174,6 +177,7 @@ class Course:
             kept=kept,
             first=first,
             before=_stored(setup, state, first * setup.steps),
+            started=_free(setup, state, first * setup.steps),
             at_edges=[Rounds.unknown(scene.rounds, worn) for _ in setup.edges],
             gauges=np.full(shape, nan),
             most=most,
@@ -190,6 +194,8 @@ class Course:
         self.contacts += touched
         self.worked.append(float(self.state.energies[CASING]))
         self.done += 1
+        if self.setup.forced:
+            self._add_forced(self.setup.forced)
         if not whole:
             return
         for edge, each in enumerate(self.at_edges):
@@ -201,6 +207,14 @@ class Course:
             self.gauges[row - 1] = modal @ self.setup.Phi_gauges.T
         if self.most:
             self.most.add(done + 1, self._last(STATES))
+
+    def _add_forced(self, forced: Forced) -> None:
+        """Add the steady response to the records of the last revolution, which are without it."""
+        samples, outputs = self.scene.record.samples_per_round, self.setup.outputs
+        q, _ = forced.response(np.arange(1, samples + 1) / samples)
+        self._last(U_R)[:, : len(outputs)] += (q @ outputs.T)[:, : self._last(U_R).shape[1]]
+        if self._last(STATES).size:
+            self._last(STATES)[:, : q.shape[1]] += q
 
     def _last(self, of: int) -> NDArray[np.float64]:
         """Records of the last revolution, U_R or STATES."""
@@ -215,7 +229,7 @@ class Course:
     def responds(self) -> float:
         """Time constant, revolutions, of the mode that responds in the last revolution."""
         setup, of_edge = self.setup, self._last(U_R)[:, self.moves]
-        return time_constant(of_edge, setup.omega, setup.Omega, setup.damping_ratio)
+        return time_constant(of_edge, setup.omega, setup.Omega, setup.zeta)
 
     def look(self, standing: int, tau: float) -> str:
         """Whether it is steady, from the revolutions after ``standing``; ``tau``: revolutions."""
@@ -236,6 +250,24 @@ class Course:
             values["pushed"] = steps.reshape(-1, len(at)) / every
         return values
 
+    def _of_modes(self, total: int) -> tuple[float, float, float]:
+        """Work of forces, what damping below 0 gave, what more damping took than booked, J.
+
+        After ``total`` steps.
+        """
+        setup, start = self.setup, self.first * self.setup.steps
+        if setup.blade.summed is None:
+            return 0.0, 0.0, 0.0
+        n, sums = setup.omega.size, self.state.energies[SUMS:]
+        ends = self.started, _free(setup, self.state, total)
+        of_start, of_end = (_energies(setup.omega, *moving) for moving in ends)
+        taken, by_force, more = sums[:n] - (of_end - of_start), 0.0, np.zeros(n)
+        if setup.forced:
+            rounds = start / setup.steps, total / setup.steps
+            by_force, more = setup.forced.work(sums[n:], ends, rounds, setup.omega, setup.zeta)
+        fed = np.abs((taken + more)[np.full(n, setup.zeta) < 0]).sum()
+        return by_force, float(fed), float(more.sum())
+
     def outcome(self, tau: float, whole: bool, **of_liner: Any) -> Outcome:
         """Outcome of the blade, at the end; ``of_liner``: what is known of casing and liner."""
         scene, setup, state, record = self.scene, self.setup, self.state, self.scene.record
@@ -244,14 +276,18 @@ class Course:
         total, after = self.first * steps + marched, self.first + self.done
         taken = np.full((scene.rounds, 1), steps)
         taken[self.done - 1] = self.step
+        by_force, fed, damped = self._of_modes(total)
         ledger = _ledger(
             state.energies, self.before, _stored(setup, state, total), alone=self.alone
         )
+        ledger = replace(ledger, force=by_force, fed=fed, damping=ledger.damping + damped)
         facts = Facts(
             self.end,
             ledger,
             unsolved=int(state.solver.unsolved[0]),
-            at_rest=strips.touches and self.contacts == 0 and not ledger.stored_before,
+            untouched=strips.touches
+            and self.contacts == 0
+            and (setup.forced is not None or not ledger.stored_before),
             least_sliding=float(state.slowest[0]),
         )
         status = judge(facts)
@@ -369,9 +405,29 @@ def _stored(setup: Setup, state: State, steps: int) -> tuple[float, ...]:
     """
     strips, energy = setup.strips, SCHEMES[setup.scheme].energy
     motion, now = state.motion, steps % TURNS
-    blade = energy(setup.omega, setup.damping_ratio, setup.h, motion, now)
+    if setup.forced:
+        moving = zip(
+            _free(setup, state, steps), setup.forced.response(steps / setup.steps), strict=True
+        )
+        blade = float(_energies(setup.omega, *(free + steady for free, steady in moving)).sum())
+    else:
+        blade = energy(setup.omega, setup.zeta, setup.h, motion, now)
     rods = float(state.covered.strips.stored @ strips.area * strips.thickness)
     return blade, rods, *setup.moving.energies(setup.h, motion, now, setup.omega.size)
+
+
+def _free(setup: Setup, state: State, steps: int) -> Moving:
+    """Modal displacements and velocities (n,) after so many ``steps``, without those of forces."""
+    rows = [steps % TURNS, (steps - 1) % TURNS]
+    x, y = (of[rows, : setup.omega.size] for of in state.motion[:2])
+    return SCHEMES[setup.scheme].motion_of(setup.omega, setup.zeta, setup.h, x, y)
+
+
+def _energies(
+    omega: NDArray[np.float64], q: NDArray[np.float64], v: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Energies (n,) of the modes, J."""
+    return (v**2 + (omega * q) ** 2) / 2
 
 
 def _place(

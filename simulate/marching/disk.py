@@ -39,10 +39,14 @@ class Disk(NamedTuple):
     schemes: Scheme  # with a leading axis (S,); Phi is that of all
     which: NDArray[np.int64]  # (N,), scheme of each blade
     slides: Any  # compiled: ``Sliding`` of one of the schemes, or None
+    rows: Any  # compiled: Phi of one of the schemes
+    casing: Any  # compiled: distortion under a blade
     g0: NDArray[np.float64]  # (N, strips), m
     first: NDArray[np.float64]  # (N, strips), rods
     leg: int  # steps
     common: Common
+    # (N, nu), m: ``d``, ``d_end`` and ``d_window`` of each, where they differ
+    under: tuple[NDArray[np.float64], ...] = ()
 
 
 class Turned(NamedTuple):
@@ -73,21 +77,46 @@ def slides(sliding, i):
 
 
 @compiled
+def of_all_schemes(Phi, i):
+    """Rows that are the same of all schemes; in a tuple, as compiled code returns arrays."""
+    return (Phi,)
+
+
+@compiled
+def of_each_scheme(Phi, i):
+    """Rows of scheme ``i``, with columns of a force to which each responds otherwise."""
+    return (Phi[i],)
+
+
+@compiled
+def same_casing(of, disk, j):
+    """The casing that all blades have."""
+    return of.d, of.d_end, of.d_window
+
+
+@compiled
+def own_casing(of, disk, j):
+    """That of blade ``j``, which an orbit of the rotor brings nearer."""
+    return disk.under[0][j], disk.under[1][j], disk.under[2][j]
+
+
+@compiled
 def scheme_of(disk, j):
     """Scheme of blade ``j``."""
     of, i = disk.schemes, disk.which[j]
     return Scheme(
-        of.a[i], of.b[i], of.loss[i], of.gain[i], of.Phi, of.C[i], of.advance, of.correct,
-        of.find_force, of.forces, disk.slides(of.sliding, i), of.turn, of.book, of.turning,
-        of.reach,
+        of.a[i], of.b[i], of.loss[i], of.gain[i], disk.rows(of.Phi, i)[0], of.C[i], of.advance,
+        of.correct, of.find_force, of.forces, disk.slides(of.sliding, i), of.turn, of.book,
+        of.turning, of.reach, of.summed,
     )  # fmt: skip
 
 
 @compiled
 def strips_of(of, disk, j):
     """The strips under blade ``j``."""
+    d, d_end, d_window = disk.casing(of, disk, j)
     return Strips(
-        of.law, disk.g0[j], of.d, of.d_end, of.d_window, disk.first[j], of.advance, of.length,
+        of.law, disk.g0[j], d, d_end, d_window, disk.first[j], of.advance, of.length,
         of.lengthened, of.rods_covered, of.inset, of.partly_covered, of.placed, of.w_end, of.area,
         of.thickness, of.pitch, of.tip, of.touches, of.tangential, of.rigid_depth, of.first_t,
         of.first_lean, of.lean, of.rows, of.waves,

@@ -26,6 +26,10 @@ class FinalState:
     h: float  # s
     rounds: int  # since the casing began to distort
     omega: NDArray[np.float64]  # (n,), rad/s
+    zeta: NDArray[np.float64]  # (n,), damping ratios
+    # (2, n), modal displacements and velocities of the steady response to forces, without which x
+    # and y are
+    steady: NDArray[np.float64]
     Phi: NDArray[np.float64]  # (n, n)
     x: NDArray[np.float64]  # (2, modes), modal displacements
     y: NDArray[np.float64]  # (2, modes), second phase-plane coordinates
@@ -78,11 +82,14 @@ def rows_at(rounds: int, steps: int) -> list[int]:
 def final_state(state: State, setup: Setup, rounds: int) -> FinalState:
     """End of a run after ``rounds``, since the casing began to distort."""
     motion, covered, rows = state.motion, state.covered, rows_at(rounds, setup.steps)
+    zeta, steady = _at_a_turn(setup)
     return FinalState(
         Omega=setup.Omega,
         h=setup.h,
         rounds=rounds,
         omega=setup.omega,
+        zeta=zeta,
+        steady=steady,
         Phi=setup.Phi,
         x=motion.x[rows],
         y=motion.y[rows],
@@ -96,23 +103,42 @@ def final_state(state: State, setup: Setup, rounds: int) -> FinalState:
     )
 
 
+def _at_a_turn(setup: Setup) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Damping ratios (n,), and modal displacements and velocities (2, n) that forces alone cause.
+
+    Between two revolutions.
+    """
+    n = setup.omega.size
+    steady = np.stack(setup.forced.response(0.0)) if setup.forced else np.zeros((2, n))
+    return np.full(n, setup.zeta), steady
+
+
 def begin(state: State, start: FinalState | Worn, setup: Setup) -> None:
     """Put the end of a run into a ``state`` at rest."""
     state.eps_p[:] = start.eps_p
     if isinstance(start, Worn):
         return
-    motion, rows = state.motion, rows_at(start.rounds, setup.steps)
-    if start.Omega == setup.Omega:
-        motion.x[rows], motion.y[rows], motion.u[rows] = start.x, start.y, start.u
+    motion, rows, own = state.motion, rows_at(start.rounds, setup.steps), slice(setup.columns)
+    zeta, steady = _at_a_turn(setup)
+    same = ("omega", setup.omega), ("zeta", zeta), ("steady", steady)
+    motion.x[rows, own], motion.y[rows, own] = start.x[:, own], start.y[:, own]
+    if start.Omega == setup.Omega and all(
+        np.array_equal(getattr(start, name), values) for name, values in same
+    ):
+        motion.u[rows] = start.u
     else:
-        n, zeta, integrator = setup.omega.size, setup.damping_ratio, SCHEMES[setup.scheme]
+        n, integrator = setup.omega.size, SCHEMES[setup.scheme]
         x, y = start.x[:, :n], start.y[:, :n]
-        q, v = integrator.motion_of(start.omega, zeta, start.h, x, y)
-        q, v = (np.linalg.solve(setup.Phi, start.Phi @ part) for part in (q, v))
+        moves = integrator.motion_of(start.omega, start.zeta, start.h, x, y)
+        q, v = (
+            np.linalg.solve(setup.Phi, start.Phi @ (free + forced)) - of_force
+            for free, forced, of_force in zip(moves, start.steady, steady, strict=True)
+        )
         x, y = integrator.turns_of(setup.omega, zeta, setup.h, q, v)
-        # of the casing, in the frame of the middle of its last step, as many to a revolution there
-        motion.x[rows], motion.y[rows] = start.x, start.y
+        # those of the casing: in the frame of the middle of its last step, as many to a revolution
         motion.x[rows, :n], motion.y[rows, :n] = x, y
+        if setup.forced:
+            setup.forced.turn(motion, rows[0], setup.columns)
         motion.u[rows] = motion.x[rows] @ setup.blade.Phi.T
     motion.moved[:] = start.moved
     state.covered.rods["part"], state.covered.rods["stored"] = start.part, start.stored

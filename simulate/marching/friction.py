@@ -56,6 +56,7 @@ from simulate.contact.interface_force import (
 from simulate.contact.ledger import FRICTION, HEAT
 from simulate.marching.modal import Scheme
 from simulate.marching.piecewise_exact import couple, find_force, gain
+from simulate.scene.damping import Ratios
 
 LEAST = 0.01  # of the smallest eigenvalue of (b), scaled to 1 without friction and compliance
 ROUND_OFF = 1e-9  # imaginary part of a real eigenvalue, over it
@@ -90,7 +91,7 @@ def sliding(
 def monotony(
     modes: Modes,
     mu: float,
-    zeta: float | NDArray[np.float64],
+    zeta: Ratios,
     h: float,
     stiffness: NDArray[np.float64],
 ) -> float:
@@ -112,7 +113,7 @@ def monotony(
 def steps_with_one_solution(
     modes: Modes,
     mu: float,
-    zeta: float | NDArray[np.float64],
+    zeta: Ratios,
     h: float,
     stiffness: NDArray[np.float64],
 ) -> int:
@@ -156,7 +157,7 @@ def _most(A: NDArray[np.float64]) -> float:
     )
 
 
-def growth_rate(modes: Modes, mu: float, zeta: float, stiffness: NDArray[np.float64]) -> float:
+def growth_rate(modes: Modes, mu: float, zeta: Ratios, stiffness: NDArray[np.float64]) -> float:
     """Rate (1/s) at which the blade moves away from rest with all strips engaged; < 0: it decays.
 
     Parameters as of ``monotony``.

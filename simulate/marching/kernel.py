@@ -44,7 +44,8 @@ class State(NamedTuple):
     covered: Covered
     solver: Solver
     eps_p: NDArray[np.float64]  # (strips, nu), plastic strains
-    energies: NDArray[np.float64]  # (SUMS,), sums of the ledger, J; volume worn off, m3
+    # (SUMS + ,), sums of the ledger, J; volume worn off, m3; where asked for ``forced.Summed``
+    energies: NDArray[np.float64]
     slowest: NDArray[np.float64]  # (1,), least sliding speed with friction in contact, over Omega r
 
 
@@ -56,7 +57,7 @@ def at_start(scheme: Scheme, strips: Strips) -> State:
         nothing_covered(strips),
         new_solver(nodes, len(strips.rows)),
         np.zeros((nodes, nu)),
-        np.zeros(SUMS),
+        np.zeros(SUMS + (scheme.summed.size if scheme.summed else 0)),
         np.full(1, np.inf),
     )
 

@@ -55,6 +55,7 @@ class Scheme(NamedTuple):
     book: Any = takes_nothing  # and after it
     turning: Any = None  # ``moving_casing.Turning`` where it moves, ``common_casing.Lent``
     reach: Any = stays  # where the other blades press it to in the step
+    summed: Any = None  # ``forced.Summed`` where sums by mode are kept
 
 
 class Motion(NamedTuple):

@@ -31,6 +31,7 @@ from simulate.contact.travelling import STANDING, Waves
 from simulate.marching import piecewise_exact
 from simulate.marching.modal import Motion, Scheme
 from simulate.scene.casing_modes import CasingMode
+from simulate.scene.damping import Ratios
 
 LONGEST_FOOTPRINT = 0.1  # n L / (2 R): half the phase of a mode over the arc L of one row
 PER_LOBE, FINE = 64, 1.3e-3  # places around the casing in a period of the highest order; to 0.13 %
@@ -116,8 +117,8 @@ class Moving:
     rows: Rows  # (m, c) each: closing, tangential and of the lean, as those of the blade
 
     def beside(
-        self, rows: Rows, omega: NDArray[np.float64], zeta: float
-    ) -> tuple[Rows, NDArray[np.float64], float | NDArray[np.float64]]:
+        self, rows: Rows, omega: NDArray[np.float64], zeta: Ratios
+    ) -> tuple[Rows, NDArray[np.float64], Ratios]:
         """``rows``, frequencies and damping of the blade with those of the casing after them."""
         if not self.order.size:
             return rows, omega, zeta

@@ -27,6 +27,7 @@ from simulate.contact.ledger import CASING, WORK
 from simulate.contact.rods import contact_force, cover, in_contact, press, widen
 from simulate.contact.strips import closest, lean_at, offset, profile_at
 from simulate.marching.modal import Motion, Scheme, scheme_arrays
+from simulate.scene.damping import Ratios
 
 STIFF = (
     300.0  # stiffness of the liner times compliance of the blade in a step at which w_end is 1/2
@@ -36,7 +37,7 @@ STIFF = (
 def coefficients(
     omega: NDArray[np.float64],
     Phi_b: NDArray[np.float64],
-    zeta: float | NDArray[np.float64],
+    zeta: Ratios,
     h: float,
 ) -> Scheme:
     """Coefficients for modes ``omega`` (n,), rad/s, and step ``h``, s.
@@ -67,9 +68,7 @@ def coefficients(
     )
 
 
-def gain(
-    omega: NDArray[np.float64], zeta: float | NDArray[np.float64], h: float
-) -> NDArray[np.float64]:
+def gain(omega: NDArray[np.float64], zeta: Ratios, h: float) -> NDArray[np.float64]:
     """G (n,): displacement of modes ``omega`` (rad/s) in a step ``h`` (s) by a modal force of 1."""
     omega_d = omega * np.sqrt(1 - zeta**2)
     e, s = np.exp(-zeta * omega * h), np.sin(omega_d * h)
@@ -97,7 +96,7 @@ def stiffness_in_a_step(w_end: NDArray[np.float64]) -> NDArray[np.float64]:
 def _losses(
     omega: NDArray[np.float64],
     omega_d: NDArray[np.float64],
-    zeta: float | NDArray[np.float64],
+    zeta: Ratios,
     h: float,
 ) -> NDArray[np.float64]:
     """Integral of 2 zeta omega q'^2 over a free step as a form in x^2, x y, y^2 of its start.
@@ -105,7 +104,7 @@ def _losses(
     From the integrals of e^(-2 zeta omega t) times 1, cos 2 omega_d t and sin 2 omega_d t.
     """
     r = 2 * zeta * omega
-    one = np.divide(-np.expm1(-r * h), r, out=np.full_like(omega, h), where=r > 0)
+    one = np.divide(-np.expm1(-r * h), r, out=np.full_like(omega, h), where=r != 0)
     turn = (np.expm1(complex(0, 2) * omega_d * h - r * h)) / (complex(0, 2) * omega_d - r)
     cos2, sin2 = turn.real, turn.imag
     cc, ss, cs = (one + cos2) / 2, (one - cos2) / 2, sin2 / 2
@@ -122,7 +121,7 @@ def _losses(
 
 def motion_of(
     omega: NDArray[np.float64],
-    zeta: float | NDArray[np.float64],
+    zeta: Ratios,
     h: float,
     x: NDArray[np.float64],
     y: NDArray[np.float64],
@@ -133,7 +132,7 @@ def motion_of(
 
 def turns_of(
     omega: NDArray[np.float64],
-    zeta: float,
+    zeta: Ratios,
     h: float,
     q: NDArray[np.float64],
     v: NDArray[np.float64],
@@ -143,7 +142,7 @@ def turns_of(
     return np.array([q, q]), np.array([y, y])
 
 
-def energy(omega: NDArray[np.float64], zeta: float, h: float, motion: Motion, now: int) -> float:
+def energy(omega: NDArray[np.float64], zeta: Ratios, h: float, motion: Motion, now: int) -> float:
     """Kinetic and elastic energy of the blade, J."""
     x, v = motion_of(omega, zeta, h, motion.x[[now], : omega.size], motion.y[[now], : omega.size])
     return float(v @ v + (omega * x) @ (omega * x)) / 2

@@ -9,9 +9,10 @@ from numpy.typing import NDArray
 from geometry.base import RPM, Fault
 from geometry.hats import middles
 from rom.model import DIRECTIONS, Rom
-from simulate.contact.gaps import given_gaps, growth_fault
+from simulate.contact.gaps import given_gaps, growth_fault, missing_rows
 from simulate.contact.law_check import fault
 from simulate.contact.places import Places, mean_footprint, rods_in_footprint, strip_places
+from simulate.marching.forced import force_faults
 from simulate.marching.moving_casing import LONGEST_FOOTPRINT
 from simulate.marching.setup import SceneError, edge_slope, least_gap, longer_fault
 from simulate.scene import (
@@ -28,6 +29,7 @@ from simulate.scene import (
 )
 from simulate.scene.laws import LAWS
 from simulate.scene.own_laws import Unread
+from simulate.scene.unbalance import Unbalance
 
 NEAR = 3.0  # times Omega_m: a speed above is taken to be in another unit
 ROUND_OFF = 1e-12  # relative, of a speed
@@ -43,6 +45,7 @@ def check_scene(scene: Scene, rom: Rom) -> None:
     """
     require_sweep(scene.blade, scene.design, scene.accuracy)
     liner, casing, directions = scene.liner, scene.casing, scene.directions
+    force, orbit = scene.force, scene.unbalance
     places = strip_places(rom, liner, casing)
     speeds = scene.speeds.omega(rom.f1)
     too_fast = [*_speeds(scene.speeds, rom, scene.blade)]
@@ -60,6 +63,8 @@ def check_scene(scene: Scene, rom: Rom) -> None:
         *(_longer(scene.stage, scene.gaps, rom, liner.m, allowed) if has_gaps else ()),
         *(_edge(scene.gaps, liner, scene.contact.profile, rom, speeds) if has_gaps else ()),
         *_moving(casing, places, rom.across, speeds.max()),
+        *(force_faults(force, rom, scene.damping_ratio, allowed) if force else ()),
+        *(_orbit(orbit, scene.gaps, liner, rom, allowed) if orbit and has_gaps else ()),
     ]
     if faults:
         raise SceneError(*faults)
@@ -305,6 +310,29 @@ def _moving(casing: Casing, places: Places, across: int, highest: float) -> Iter
                 0.0,
                 {"gt": 0},
             )
+
+
+def _orbit(
+    unbalance: Unbalance, of: Gaps, liner: Liner, rom: Rom, speeds: NDArray[np.float64]
+) -> Sequence[Fault]:
+    """An orbit that is not known at one of the ``speeds``, rad/s, or beyond the liner there."""
+    key = "unbalance.whirl" if unbalance.whirl else "unbalance.jeffcott"
+    if missing := missing_rows(unbalance.whirl, key, rom.f1, speeds):
+        return missing
+    for Omega in speeds:
+        radius, _ = unbalance.orbit(Omega, rom.f1)
+        room = liner.thickness_m + least_gap(of, rom, liner.m, [Omega])
+        if radius > room:
+            return [
+                Fault(
+                    f"its radius is {1e6 * radius:.4g} um at {RPM * Omega:.6g} rpm, gap "
+                    f"and liner together have {1e6 * room:.4g} um: allowed up to that, or other "
+                    "speeds",
+                    key,
+                    allowed={"le": 1e6 * room},
+                )
+            ]
+    return ()
 
 
 def _edge(

@@ -30,15 +30,27 @@ from simulate.marching.disk import (
     Turned as OfDisk,
     does_not_slide,
     march_disk,
+    of_all_schemes,
     of_blade,
+    of_each_scheme,
+    own_casing,
+    same_casing,
     slides,
     stacked,
 )
-from simulate.marching.ends import AnyEnd, EndOfStage, FinalState, begin, begin_casing, end_of_stage
+from simulate.marching.ends import (
+    AnyEnd,
+    EndOfStage,
+    FinalState,
+    begin,
+    begin_casing,
+    end_of_stage,
+    rows_at,
+)
 from simulate.marching.kernel import ESCAPED, RUNNING, Recorded, State, at_start, march_round
 from simulate.marching.modal import TURNS, padded_rows
 from simulate.marching.moving_casing import CasingMotion
-from simulate.marching.setup import Setup, compiling
+from simulate.marching.setup import UNDER, Setup, compiling
 from simulate.marching.status import SEVERITY
 from simulate.marching.trend import looks
 from simulate.scene import STEADY, TOO_SHORT, Record, Scene
@@ -59,6 +71,11 @@ class March:
 
     def turn(self, done: int, before: int) -> list[Turned]:
         """March revolution ``done``, from 0, after ``before`` of another run: of each blade."""
+        rounds = done + before
+        for j, setup in enumerate(self.setups):
+            if setup.forced:
+                row = rows_at(rounds, setup.steps)[0]
+                setup.forced.turn(self.of_blade(j)[0].motion, row, setup.columns)
         found = self.kernel(*self.arguments(done, before))
         if self.turned is None:
             return [found]
@@ -92,10 +109,10 @@ def _start(setup: Setup, record: Record, rounds: int, until: str | None) -> Marc
     always = until or record.history  # else all outputs are read where the spectrum is
     stage, setups, columns = setup.stage, setup.blades, setup.moving.order.size
     state, strips = at_start(setup.blade, setup.strips), setup.strips
-    outputs = np.vstack([setup.Phi_out, setup.Phi_timing, setup.Phi_history])
     blades = (len(setups),) if stage else ()
-    kept = room(record, rounds, len(outputs), state.motion.x.shape[1], blades)
-    outputs = np.pad(outputs, ((0, 0), (0, columns)))  # of the blade
+    outputs, width = setup.outputs, state.motion.x.shape[1]
+    kept = room(record, rounds, len(outputs), width, blades)
+    outputs = np.pad(outputs, ((0, 0), (0, width - outputs.shape[1])))  # of the blade
     casing = np.empty((record.samples_per_round, columns))
     Phi_out = padded_rows(outputs)
     share, secant = force_weights(setup.places.ends)[: kept[FORCES].shape[-1]], setup.places.secant
@@ -112,12 +129,20 @@ def _start(setup: Setup, record: Record, rounds: int, until: str | None) -> Marc
                 schemes=stacked(stage.schemes),
                 which=stage.which,
                 slides=does_not_slide if setup.blade.sliding is None else slides,
+                rows=of_each_scheme if setup.forced else of_all_schemes,
+                casing=own_casing if stage.nearer.any() else same_casing,
                 g0=np.stack([of.strips.g0 for of in setups]),
                 first=np.stack([of.strips.first for of in setups]),
                 leg=stage.leg,
                 common=common,
+                under=tuple(np.stack([getattr(of.strips, name) for of in setups]) for name in UNDER)
+                if stage.nearer.any()
+                else (),
             ),
         )
+        if setup.forced:
+            own_rows = np.stack([scheme.Phi for scheme in stage.schemes])
+            disk = (disk[0]._replace(schemes=disk[0].schemes._replace(Phi=own_rows)),)
 
     def arguments(done: int, before: int = 0) -> tuple[Any, ...]:
         """Of the kernel in revolution ``done``, from 0, after ``before`` of another run."""
@@ -133,6 +158,10 @@ def _start(setup: Setup, record: Record, rounds: int, until: str | None) -> Marc
             return *disk, strips, state, recorded, *of_setup, turned
         return setup.blade, strips, state, recorded, *of_setup
 
+    for j, of in enumerate(setups):
+        if of.forced:
+            motion = (of_blade(state, j) if stage else state).motion
+            of.forced.start(motion, of.blade.Phi, of.columns, of.omega, of.zeta)
     with compiling(setup.law):
         kernel = for_types_of(march_disk if stage else march_round, *arguments(0))
     return March(setups, state, kept, casing, common, kernel, arguments, turned)

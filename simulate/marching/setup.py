@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from functools import partial
 from math import ceil, radians
 from typing import NamedTuple
 
@@ -29,12 +30,14 @@ from simulate.contact.travelling import STANDING, Waves, waves
 from simulate.marching import central_difference, piecewise_exact
 from simulate.marching.common_casing import Lent, lending, lent_columns
 from simulate.marching.disk import leg_of
+from simulate.marching.forced import Forced, force_faults, forced, summing
 from simulate.marching.friction import Modes, sliding, steps_with_one_solution
 from simulate.marching.modal import LANES, Scheme, rows_of
 from simulate.marching.moving_casing import Moving, moving_casing
 from simulate.marching.piecewise_exact import gain, share_of_end
 from simulate.marching.stability import step_limit
 from simulate.scene import LEADING, Casing, Contact, Gaps, Liner, Profile, Scene, Stage
+from simulate.scene.damping import Ratios, ratios
 from simulate.scene.law import Law
 from simulate.scene.laws import LAWS
 from simulate.scene.scene import Integrator
@@ -42,6 +45,7 @@ from simulate.scene.scene import Integrator
 SCHEMES = {"central-difference": central_difference, "piecewise-exact": piecewise_exact}
 LARGEST_DISPLACEMENT = 0.1  # of the span: beyond this, linear elasticity no longer applies
 INERTIA = 1 / 12  # of a footprint: the moment under a lean of 1, over the force under a w of 1
+UNDER = ("d", "d_end", "d_window")  # distortion, of ``Strips``
 MARGIN = 2  # rods on either side of the window, where the casing is met at the end of a step
 MAX_STEPS = 10**9  # per revolution, minutes of computing
 
@@ -60,6 +64,7 @@ class Blades:
     which: NDArray[np.int64]  # (N,), scheme of each
     leg: int  # steps, as of ``disk``
     lent: Lent  # columns of a casing that moves
+    nearer: NDArray[np.float64]  # (N,), m, than the first by an orbit of the rotor
 
 
 @dataclass(frozen=True)
@@ -85,13 +90,14 @@ class Setup:
     places: Places
     strips: Strips
     bound: float  # m, displacement beyond which a run has diverged
-    damping_ratio: float
+    zeta: Ratios  # damping ratio of its modes
     scheme: str  # key of ``SCHEMES``
     # the modes, with their interface rows, as the kernel reads them; those of the casing behind
     blade: Scheme
     moving: Moving  # modes of the casing; none if it is rigid
     ramp: Ramp
     law: Law
+    forced: Forced | None = None  # engine orders beside the rub
     stage: Blades | None = None  # several blades, of which the above is one of no changes
 
     def of_blade(self, j: int) -> "Setup":
@@ -101,8 +107,33 @@ class Setup:
         strips = strips._replace(
             g0=strips.g0 - stage.longer[j], first=(strips.first + j * nu / blades) % nu
         )
-        scheme = stage.schemes[stage.which[j]]
-        return replace(self, strips=strips, omega=stage.omega[j], blade=scheme, stage=None)
+        if stage.nearer.any():
+            strips = strips._replace(
+                **{name: getattr(strips, name) + stage.nearer[j] for name in UNDER}
+            )
+        scheme, forced = stage.schemes[stage.which[j]], self.forced
+        if forced:
+            forced = forced.of_blade(2 * np.pi * j / blades, stage.omega[j], self.zeta)
+        return replace(
+            self, strips=strips, omega=stage.omega[j], blade=scheme, forced=forced, stage=None
+        )
+
+    def damping_at(self, orders: NDArray[np.float64]) -> Ratios:
+        """Damping ratio of the modes nearest to ``orders`` (k,), frequencies over Omega."""
+        if np.ndim(self.zeta) == 0:
+            return self.zeta
+        apart = np.abs(self.omega / self.Omega - orders[:, None])
+        return np.full(self.omega.size, self.zeta)[apart.argmin(axis=1)]
+
+    @property
+    def outputs(self) -> NDArray[np.float64]:
+        """Rows of all outputs of the kernel (outputs, n)."""
+        return np.vstack([self.Phi_out, self.Phi_timing, self.Phi_history])
+
+    @property
+    def columns(self) -> int:
+        """Columns of the blade and of a casing that moves, behind which are those of forces."""
+        return self.omega.size + self.moving.order.size
 
     @property
     def blades(self) -> list["Setup"]:
@@ -130,9 +161,10 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
         rest is less than the growth of the tip, or a rigid casing would overlap the blade at the
         start.
     """
-    integrator, contact, zeta = scene.stepping, scene.contact, scene.damping_ratio
-    liner, casing, gaps = scene.liner, scene.casing, scene.gaps
+    integrator, contact, gaps = scene.stepping, scene.contact, scene.gaps
+    liner, casing = scene.liner, scene.casing
     omega, Phi = rom.modes(Omega)
+    zeta = ratios(scene.damping_ratio, omega, partial(rom.families, Omega))
     places, leans = strip_places(rom, liner, casing), rom.across == 2
     stiffness = strip_stiffness(liner, places)
     Phi_b = closing_rows(rom, casing, places.xi) @ Phi
@@ -165,9 +197,17 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
     if faults := growth_fault(gaps, rom, places.xi, np.array([Omega])):
         raise SceneError(*faults)
     gap = float(given_gaps(gaps, rom, LEADING))
+    closes, blades = np.zeros(1), scene.stage.count if scene.stage else 1
+    if scene.unbalance:
+        closes = scene.unbalance.closes(blades, Omega, rom.f1)
+    of_force = None
+    if scene.force:
+        if faults := force_faults(scene.force, rom, scene.damping_ratio, np.array([Omega])):
+            raise SceneError(*faults)
+        of_force = forced(scene.force, rom, scene.damping_ratio, Omega)
     strips = strips_under(
         liner,
-        distortion(casing, liner.nu, gap, h),
+        distortion(casing, liner.nu, gap, h, closes[0]),
         contact,
         places,
         g0=gaps_at(gaps, rom, places.xi, Omega),
@@ -188,9 +228,12 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
             scheme = moving.turned(scheme, omega.size, Omega * h)
         elif moving.order.size:
             scheme = lending(scheme, omega.size, lent)
-        if mu is None:
-            return scheme
-        return sliding(scheme, strips.first_t, mu * places.secant, stiffness)
+        if mu is not None:
+            scheme = sliding(scheme, strips.first_t, mu * places.secant, stiffness)
+        if of_force:
+            of_blade = of_force.of_blade(0.0, own(share)[: omega.size], zeta)
+            return of_blade.beside(scheme, len(marched), h)
+        return summing(scheme, omega.size) if np.min(zeta) < 0 else scheme
 
     tapers = places.slope.any()
     edges = EDGES if tapers else EDGES[:1]
@@ -219,16 +262,19 @@ def prepare(scene: Scene, rom: Rom, Omega: float, steps: int | None = None) -> S
         places=places,
         strips=strips,
         bound=LARGEST_DISPLACEMENT * rom.span,
-        damping_ratio=zeta,
+        zeta=zeta,
         scheme=integrator.scheme,
         blade=scheme_at(0.0),
         moving=moving,
         ramp=ramp_of(casing),
         law=liner.law,
+        forced=of_force,
     )
     if scene.stage is None:
         return setup
-    return _with_stage(setup, scene.stage, casing, gap, scene.record.samples_per_round, scheme_at)
+    return _with_stage(
+        setup, scene.stage, casing, gap, scene.record.samples_per_round, scheme_at, closes
+    )
 
 
 def _with_stage(
@@ -238,11 +284,12 @@ def _with_stage(
     gap: float,
     samples: int,
     scheme_at: Callable[[float, Lent], Scheme],
+    closes: NDArray[np.float64],
 ) -> Setup:
     """The ``setup`` of one blade with what differs from blade to blade of a ``stage``.
 
     ``gap`` at xi = 1/16, m; ``samples`` per revolution; ``scheme_at``: by share of the frequencies
-    and columns lent.
+    and columns lent; ``closes`` (N,), m: what an orbit takes from the gap of each.
 
     Raises
     ------
@@ -270,6 +317,7 @@ def _with_stage(
             which=which,
             leg=1 if setup.moving.order.size else leg,
             lent=lent,
+            nearer=closes - closes[0],
         ),
     )
     for blade in made.blades:
@@ -330,7 +378,7 @@ def _pushed(
 def _limit(
     stiffness: NDArray[np.float64],
     contact: Contact,
-    zeta: float,
+    zeta: Ratios,
     omega: NDArray[np.float64],
     rows: tuple[NDArray[np.float64], ...],
     footprint: NDArray[np.float64],
@@ -355,7 +403,7 @@ def _limit(
 def _require_one_solution(
     modes: Modes,
     mu: float,
-    zeta: float | NDArray[np.float64],
+    zeta: Ratios,
     h: float,
     steps: int,
     stiffness: NDArray[np.float64],
@@ -429,13 +477,16 @@ class Distortion(NamedTuple):
     waves: Waves  # harmonics that travel
 
 
-def distortion(casing: Casing, nu: int, gap: float, h: float) -> Distortion:
-    """Distortion at ``nu`` rods, over the ``gap`` (m) at xi = 1/16, in steps of ``h``, s."""
+def distortion(casing: Casing, nu: int, gap: float, h: float, closes: float = 0.0) -> Distortion:
+    """Distortion at ``nu`` rods, over the ``gap`` (m) at xi = 1/16, in steps of ``h``, s.
+
+    ``closes``: by how much the casing is nearer all around, m.
+    """
     theta = 2 * np.pi * np.arange(nu) / nu
-    d = casing.inward(theta, gap)
+    d = casing.inward(theta, gap) + closes
     if not casing.travelling:
         return Distortion(d, d, STANDING)
-    fixed = casing.fixed(theta, gap)
+    fixed = casing.fixed(theta, gap) + closes
     moving = [
         (
             casing.scale * harmonic.size(gap),

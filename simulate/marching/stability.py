@@ -24,13 +24,15 @@ slowly anywhere between, and faster with some strips engaged than with all.
 import numpy as np
 from numpy.typing import NDArray
 
+from simulate.scene.damping import Ratios
+
 TOLERANCE = 1e-9  # relative width of the bracket of the limit
 
 
 def step_limit(
     omega: NDArray[np.float64],
     Phi_b: NDArray[np.float64],
-    zeta: float,
+    zeta: Ratios,
     k_strip: NDArray[np.float64],
 ) -> float:
     """Largest step, s, that is stable for any set of engaged strips: h omega < 2, b < 1, Eq. (c).
@@ -39,7 +41,7 @@ def step_limit(
     ----------
     omega : (n,), rad/s
     Phi_b : (m, n), M-normalised modes over the strips
-    zeta : damping ratio
+    zeta : damping ratio, of each mode or of all
     k_strip : (m,), stiffness of each strip, engaged, N/m
     """
     low, high = 0.0, 2 / omega.max()
@@ -55,7 +57,7 @@ def engagement(
     h: float,
     omega: NDArray[np.float64],
     Phi_b: NDArray[np.float64],
-    zeta: float,
+    zeta: Ratios,
     k_strip: NDArray[np.float64],
 ) -> float:
     """Number b of Eq. (c): the scheme makes contact 1/(1 - b) times stiffer than K_c, Eq. (b)."""

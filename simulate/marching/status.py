@@ -30,11 +30,12 @@ SEVERITY = (
     *("no-contact", "ok", "sensitive", "inaccurate"),
     *("diverged", "unstable", "liner-exhausted"),
 )
-# statuses of the runs whose numbers are results; without contact, those of a blade at rest
+# statuses of the runs whose numbers are results; without contact, those of a blade at rest, or of
+# one that forces alone move
 WITH_RESULT = ("ok", "sensitive", "no-contact")
 TO_THE_END = (*WITH_RESULT, "inaccurate")  # of those that can be compared
 
-# Numerical energy over that from the casing and the rods at the start: limits of an `ok` run
+# Numerical energy over that given (``Ledger.given``): limits of an `ok` run
 CREATED = 0.1  # above, the run is `unstable`
 LOST = 0.2  # above, it is `inaccurate`: energy is quadratic, so 20 % is 10 % of the amplitude
 SLIDES = 0.1  # least sliding speed over Omega r of an `ok` run with friction
@@ -51,7 +52,7 @@ class Facts:
     end: int  # RUNNING, or why the kernel ended it
     ledger: Ledger
     unsolved: int = 0  # steps in which the solver of the contact forces did not converge
-    at_rest: bool = False  # no force has ever moved the blade, though it should rub
+    untouched: bool = False  # the tip never touched, though it should: at rest, or in forces alone
     least_sliding: float = np.inf  # of a tip with friction in contact, over Omega r
 
 
@@ -70,8 +71,8 @@ def judge(
         The scheme created energy, the energy is negative or nan, or steps are unsolved: a numerical
         failure.
     ``diverged``
-        The displacement exceeded its bound, driven by the work of the casing, or of friction:
-        physical.
+        The displacement exceeded its bound, driven by the work of the casing, of friction, of
+        forces, or of damping below 0: physical.
     ``inaccurate``
         The scheme lost energy in contact, or the bound of the error is too large: the step is too
         long. Or the vibration of the tip came near its sliding speed, where friction would change
@@ -79,12 +80,12 @@ def judge(
     ``sensitive``
         A twin departs: the run cannot be predicted. Or its accuracy is not met.
     ``no-contact``
-        The blade has stayed at rest.
+        The tip has not touched: the blade has stayed at rest, or forces alone have moved it.
     ``ok``
         None of these.
     """
     ledger = facts.ledger
-    given = ledger.casing + ledger.elastic_before
+    given = ledger.given
     created = not ledger.numerical <= CREATED * given  # true for nan as well
     verdicts = (
         (facts.end == WORN_THROUGH, "liner-exhausted"),
@@ -93,7 +94,7 @@ def judge(
         (ledger.numerical < -LOST * given or facts.least_sliding < SLIDES, "inaccurate"),
         (twin > SENSITIVE_FROM or not accurate, "sensitive"),
         (not error <= STATED or ledger.numerical < -lost * given, "inaccurate"),
-        (facts.at_rest, "no-contact"),
+        (facts.untouched, "no-contact"),
     )
     return next((status for holds, status in verdicts if holds), "ok")
 
@@ -112,8 +113,8 @@ def judged(outcome: "Outcome", *found: Any) -> "Outcome":
 def why_no_contact(scene: Scene, setup: Setup, eps_p: NDArray[np.float64], rounds: int) -> str:
     """Reason why the tip did not touch: the key, its value and the change needed.
 
-    The blade starts at rest, and nothing has moved it: its smallest gap counts, the largest inward
-    distortion up to the last revolution, and the wear.
+    A blade without forces starts at rest, and nothing has moved it: its smallest gap counts, the
+    largest inward distortion up to the last revolution, and the wear.
 
     ``eps_p`` (strips, nu): plastic strains at the end; ``rounds``: since the casing began to
     distort.
@@ -127,6 +128,11 @@ def why_no_contact(scene: Scene, setup: Setup, eps_p: NDArray[np.float64], round
         (
             not scene.liner.law.has_strength and eps_p.any(),
             "liner.law: sigma_Y and K are 0: the tip wears the liner without any force",
+        ),
+        (
+            setup.forced is not None,
+            f"force: the blade vibrates under its forces alone, and does not reach the liner; "
+            f"{smallest_gap}: raise the force, widen casing or scale, or narrow the gap",
         ),
         (inward <= 0, f"casing.{what}: nothing brings the liner to the tip; {smallest_gap}"),
         (

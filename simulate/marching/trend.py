@@ -29,6 +29,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from simulate.scene import DYING_OUT, GROWING, STEADY, TOO_SHORT
+from simulate.scene.damping import Ratios
 
 FEWEST = 8  # revolutions, to say anything
 MOVES = 0.1  # of the swing at the end, from quarter to quarter
@@ -111,15 +112,16 @@ def looks(standing: int, least: int, most: int) -> set[int]:
 
 
 def time_constant(
-    samples: NDArray[np.float64], omega: NDArray[np.float64], Omega: float, zeta: float
+    samples: NDArray[np.float64], omega: NDArray[np.float64], Omega: float, zeta: Ratios
 ) -> float:
-    """Time constant tau, revolutions, of the mode that responds; inf without damping.
+    """Time constant tau, revolutions, of the mode that responds; inf without damping, or below 0.
 
     ``samples`` (n,), m, of u_r in one revolution: the mode is that nearest to their largest order.
     """
     order = np.abs(np.fft.rfft(samples))[1:].argmax() + 1
-    k = (omega / Omega)[np.abs(omega / Omega - order).argmin()]
-    return float(1 / (2 * np.pi * zeta * k)) if zeta > 0 else inf
+    mode = np.abs(omega / Omega - order).argmin()
+    k, xi = omega[mode] / Omega, np.broadcast_to(zeta, omega.shape)[mode]
+    return float(1 / (2 * np.pi * xi * k)) if xi > 0 else inf
 
 
 def trend(swing: NDArray[np.float64], worn: NDArray[np.float64], tau: float) -> str:

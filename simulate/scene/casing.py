@@ -303,12 +303,13 @@ class Casing(Settings):
         bands = {k for n, m in product(self.orders, repeat=2) for k in side_bands(n, {m})}
         return dict.fromkeys(bands, SIDE_BAND) | dict.fromkeys(self.orders, CASING)
 
-    def drives(self, orders: NDArray[np.int64]) -> NDArray[np.bool_]:
+    def drives(self, orders: NDArray[np.int64], forced: Sequence[int] = ()) -> NDArray[np.bool_]:
         """Whether contact with the unworn casing can have each of the ``orders`` (k,).
 
-        A motion that repeats from lobe to lobe has multiples of the orders' common divisor alone.
+        A motion that repeats from lobe to lobe has multiples of the orders' common divisor alone,
+        of those of the casing and of those ``forced`` on the blade.
         """
-        divisor = gcd(*self.orders)
+        divisor = gcd(*self.orders, *forced)
         return orders % divisor == 0 if divisor else np.zeros(len(orders), bool)
 
     def inward(

@@ -1,5 +1,6 @@
 """Settings of a scene file: everything that a run depends on; keys end in their unit."""
 
+from collections.abc import Sequence
 from itertools import product
 from math import nan
 from typing import Annotated, Any, ClassVar, Literal, Self
@@ -17,11 +18,15 @@ from geometry.base import (
     require,
 )
 from geometry.elsewhere import AnyBlade
+from simulate.scene import damping
 from simulate.scene.casing import MOST_ROUNDS, Casing, Clearance, Gaps
+from simulate.scene.damping import AnyDamping
+from simulate.scene.force import FORCE, Force
 from simulate.scene.liner import Contact, Liner
 from simulate.scene.record import Peaks, Record
 from simulate.scene.speeds import Positive, Speeds
 from simulate.scene.stage import Stage
+from simulate.scene.unbalance import WORST, Unbalance
 from simulate.scene.verify import EVERY, PEAKS, Share, Verify, in_place_of_old
 
 StepsPerRound = Annotated[int, Field(ge=64, le=10**9)]
@@ -85,6 +90,10 @@ AT_REST = (
     "casing.axial_shift_um): they would jump from one speed to the next under the tip"
 )
 TRAVELLING = "casing.harmonics[].speed_rpm: from speed to speed a harmonic that travels would jump"
+ORBIT = "unbalance, whose orbit would jump from one speed to the next under the tip"
+OF_EACH_BLADE = (
+    "stage, whose blades are each where they are on the orbit: give the angle of blade 0"
+)
 NOT_ESTIMATED = (
     "accuracy, whose errors are not estimated with it (give integrator, liner.rods_per_round and "
     "liner.strips instead)"
@@ -104,7 +113,8 @@ EXCLUDED = [  # keys of which a scene has one at most, named by the first
     ("speeds.in_turn", "accuracy"),
     ("speeds.in_turn", "design"),
     ("speeds.in_turn", "peaks"),  # a run goes on from the one before, not from one added between
-    *product(("speeds.in_turn", "start.speed_over_f1"), (AT_REST, TRAVELLING)),
+    *product(("speeds.in_turn", "start.speed_over_f1"), (AT_REST, TRAVELLING, ORBIT)),
+    ("unbalance.beta_deg: worst", OF_EACH_BLADE),
     ("contact.friction", NOT_ESTIMATED),
     ("until", "accuracy"),
     ("verify", RODS_OF_START),
@@ -121,7 +131,7 @@ class Scene(SettingsFile):
     (20, 1.0, 0.45)
     """
 
-    hints: ClassVar = {"damping_ratio": "over critical damping: 0.5 % is 0.005"}
+    hints: ClassVar = damping.HINTS
 
     blade: str = Field(pattern=r"^[a-z0-9][a-z0-9-]*$", description="Name of the blade file")
     speeds: Speeds = Field(description="Rotational speeds")
@@ -140,7 +150,10 @@ class Scene(SettingsFile):
         "liner.rods_per_round and liner.strips, which are then chosen; costs 3 to 4 times the best "
         "fixed setting",
     )
-    damping_ratio: float = Field(ge=0, lt=1, description="xi of every mode of K(Omega)")
+    damping_ratio: AnyDamping = Field(
+        description="xi of every mode of K(Omega); or of the first families of modes and the "
+        "rest, or a table over the frequency. Below 0, from -0.1 on: flutter"
+    )
     clearance: Clearance | None = Field(
         default=None,
         description="Gaps in operation, before the casing distorts; required without `casing.line`",
@@ -150,6 +163,12 @@ class Scene(SettingsFile):
     contact: Contact = Field(default=Contact(), description="Tip profile and tangential force")
     stage: Stage | None = Field(
         default=None, description="Several blades over the liner; by default one"
+    )
+    force: Force | None = Field(
+        default=None, description="Engine orders that excite the blade beside the rub"
+    )
+    unbalance: Unbalance | None = Field(
+        default=None, description="Orbit of an unbalanced rotor, which brings the blade nearer"
     )
     record: Record = Field(default=Record(), description="Outputs")
     peaks: Peaks | None = Field(default=None, description="Peaks around which speeds are added")
@@ -249,6 +268,33 @@ class Scene(SettingsFile):
         """What the gaps depend on."""
         return Gaps(self.clearance, self.casing)
 
+    @property
+    def forced(self) -> Sequence[int]:
+        """Engine orders that excite the blade beside the rub."""
+        return self.force.numbers if self.force else ()
+
+    @property
+    def excites(self) -> dict[int, str]:
+        """What excites each engine order: a force, a harmonic, or else a side band of one."""
+        return self.casing.excites | dict.fromkeys(self.forced, FORCE)
+
+    @property
+    def assumes(self) -> list[str]:
+        """What its keys leave out that an engine has, in sentences."""
+        told = []
+        if self.stage and damping.flutters(self.damping_ratio):
+            told.append(
+                f"Damping below 0: each of the {self.stage.count} blades flutters alone; in a "
+                "rotor each nodal diameter has a damping of its own"
+            )
+        if self.unbalance:
+            told.append("The orbit of the rotor is prescribed: contact does not act on it")
+            told += [
+                "At each speed the blade is where the orbit brings it nearest: the results are an "
+                "envelope over the speeds, and no blade's"
+            ] * (self.unbalance.beta_deg == WORST)
+        return told
+
     @checked
     def _settings_or_accuracy(self) -> None:
         values = {
@@ -309,6 +355,18 @@ class Scene(SettingsFile):
                     f"liner.{key}",
                     value,
                 ),
+            ),
+            (
+                exact or not damping.flutters(self.damping_ratio),
+                Fault(
+                    f"{needs}central differences do not tell what damping below 0 gives the blade",
+                    "damping_ratio",
+                    min(damping.given(self.damping_ratio)),
+                ),
+            ),
+            (
+                exact or not self.force,
+                Fault(f"{needs}central differences march no forced response", "force"),
             ),
             (
                 exact or not friction,
@@ -378,6 +436,9 @@ class Scene(SettingsFile):
             "peaks": self.peaks,
             AT_REST: self.gaps.vary,
             TRAVELLING: self.casing.travelling,
+            ORBIT: self.unbalance,
+            "unbalance.beta_deg: worst": self.unbalance and self.unbalance.beta_deg == WORST,
+            OF_EACH_BLADE: self.stage,
         }
         require(
             (

@@ -49,13 +49,13 @@ POINTS = 8192  # angles around the casing at which a function is sampled
 LARGEST_DEPTH = 1e5  # um: a larger one is of another unit
 
 
-def from_csv(model: type[Settings], x: Columns, y: Columns) -> BeforeValidator:
+def from_csv(model: type[Settings], *columns: Columns) -> BeforeValidator:
     """Reads a ``model`` from the CSV file at a path; leaves other values unchanged.
 
-    Its header names one of the columns ``x`` and one of ``y``. A fault has the path before it: that
+    Its header names one of each of the ``columns``, in order. A fault has the path before it: that
     of the scene, and the line in it, come on top.
     """
-    return _of_file(lambda lines: check_settings(model, _columns(lines, x, y), ""))
+    return _of_file(lambda lines: check_settings(model, _columns(lines, columns), ""))
 
 
 def rows_from_csv(model: type[Settings]) -> BeforeValidator:
@@ -117,17 +117,18 @@ def _row(model: type[Settings], header: Sequence[str], line: int, cells: Sequenc
         raise ValueError(f"{error} (line {line})") from None
 
 
-def _columns(lines: Lines, x: Columns, y: Columns) -> dict[str, list[float]]:
-    """Both columns of a CSV file, in their units, by the keys that their names stand for."""
+def _columns(lines: Lines, columns: Sequence[Columns]) -> dict[str, list[float]]:
+    """The columns of a CSV file, in their units, by the keys that their names stand for."""
     (at, header), *rows = lines or [(1, [])]
-    if len(header) != 2 or header[0] not in x or header[1] not in y:
+    named = zip(header, columns, strict=False)
+    if len(header) != len(columns) or not all(name in of for name, of in named):
         raise ValueError(
-            f"line {at}: columns {shown(', '.join(header))}: should be {' or '.join(x)}, and "
-            f"{' or '.join(y)}"
+            f"line {at}: columns {shown(', '.join(header))}: should be "
+            f"{', and '.join(' or '.join(of) for of in columns)}"
         )
     points = [numbers(cells, header, line) for line, cells in rows]
-    columns = (x[header[0]], y[header[1]])
-    return {key: [point[i] * unit for point in points] for i, (key, unit) in enumerate(columns)}
+    keys = (of[name] for name, of in zip(header, columns, strict=True))
+    return {key: [point[i] * unit for point in points] for i, (key, unit) in enumerate(keys)}
 
 
 def ascending(
@@ -164,14 +165,15 @@ AROUND = ", from 0 at least to 360 at most"
 
 
 class OverSpeed(Points):
-    """Base of a length over the speed, linear between its speeds: the last of its keys."""
+    """Base of values over the speed, linear between its speeds."""
 
     either: ClassVar = [("speed_over_f1", "speed_rpm")]
 
     speed_over_f1: Annotated[tuple[float, ...], FROM_0] | None = Field(
         default=None,
         description="Speeds over f1(0), ascending; or FILE.csv in place of the table, with columns "
-        "speed_over_f1 or speed_rpm, and the length in m, mm or um: growth_um, shift_um",
+        "speed_over_f1 or speed_rpm, and the others in the same order, lengths in m, mm or um: "
+        "growth_um, shift_um, radius_um",
     )
     speed_rpm: Annotated[tuple[float, ...], FROM_0] | None = Field(
         default=None, description="The same in rpm, instead"
@@ -189,10 +191,10 @@ class OverSpeed(Points):
         speeds, unit = self._speeds(), self._unit(f1)
         return speeds[0] / unit, speeds[-1] / unit
 
-    def at(self, Omega: float, f1: float) -> float:
-        """The length at ``Omega`` (rad/s), in the unit of its key; ``f1`` in Hz."""
-        *_, (_, values) = self
-        return float(np.interp(Omega * self._unit(f1), self._speeds(), values))
+    def at(self, Omega: float, f1: float, key: str = "") -> float:
+        """The value of a ``key``, by default the last, at ``Omega`` (rad/s); ``f1`` in Hz."""
+        *_, (last, _) = self
+        return float(np.interp(Omega * self._unit(f1), self._speeds(), dict(self)[key or last]))
 
 
 class Thermal(OverSpeed):

@@ -44,6 +44,7 @@ from simulate.marching.setup import sliding_modes, with_lean
 from simulate.marching.states import every
 from simulate.marching.trend import further
 from simulate.scene import GROWING, LEADING, OF_LAST_ROUNDS, Scene
+from simulate.scene.damping import flutters
 from simulate.scene.laws.table import Tabulated
 from simulate.scene.own_laws import of_result
 from simulate.signals import amplitude, filled, lines, spectrum
@@ -71,6 +72,8 @@ OF_FRICTION = (
     "; friction: of work and on_casing, that of the tangential forces; heat: of friction, from "
     "the shaft"
 )
+OF_FORCE = "; force: work of the engine orders on the blade"
+OF_FLUTTER = "; fed: less in damping, what the modes of a damping below 0 were given"
 BY_FRICTION = ("friction", "heat")  # energies of a run with friction alone
 BY_CASING = (
     "on_casing",
@@ -93,6 +96,7 @@ VARIABLES = {  # of each run: dimensions beside the speed, unit, meaning
         "1",
         "revolutions in which the mode that responds dies out to 1/e; nan if a run ended early",
     ),
+    "orbit": ("", "m", "radius of the orbit of the rotor"),
     "displacement": ("", *of_runs()["displacement"].said),
     "largest_round": ("", "1", "number of the revolution of the displacement"),
     "place": ("", "1", "chord fraction, 1/16 or 15/16, that moves more: of u_r and its numbers"),
@@ -224,7 +228,7 @@ COORDINATES = {  # dimensions, unit, meaning
     "gauge_time": ("gauge_time", "1", "revolutions since {since}"),
     "window": ("window", "1", "revolutions since the start, middle of a window"),
     "bound": ("bound", "1", "end of the range"),
-    "energy": ("energy", "", ENERGIES + "{terms}{of_casing}{of_friction}"),
+    "energy": ("energy", "", ENERGIES + "{terms}{of_casing}{of_friction}{of_force}{of_flutter}"),
     "observable": ("observable", "", ""),
 }
 OVER_TIME = (  # records of each blade that a scene names
@@ -246,6 +250,8 @@ RECORDED = {  # by the key of the scene's record that asks for them
 END = "end_"  # of the variables that hold the end of a run
 OF_FINAL_STATE = {  # dimensions of each field of ``FinalState`` that is an array
     "omega": ("end_mode",),
+    "zeta": ("end_mode",),
+    "steady": ("end_motion", "end_mode"),
     "Phi": ("end_dof", "end_mode"),
     "x": ("end_step", "end_padded"),
     "y": ("end_step", "end_padded"),
@@ -491,6 +497,8 @@ def of_run(run: Run) -> xr.Dataset:
         "terms": " + on_casing" * moves + " - friction" * slides,
         "of_casing": OF_CASING * moves,
         "of_friction": OF_FRICTION * slides,
+        "of_force": OF_FORCE * bool(scene.force),
+        "of_flutter": OF_FLUTTER * flutters(scene.damping_ratio),
         "since": "the end of the run" if scene.until else "the start",
         "second_run": "twice to an eighth of the step; nan where it is not checked"
         if checks
@@ -639,7 +647,10 @@ def _of_march(run: Run) -> dict[str, Any]:
     speed, nu, rounds = np.array([setup.Omega]), len(setup.strips.d), run.scene.rounds
     largest, number = outcome.each.largest
     timed = {"u_t": outcome.u_t, "edge": [*EDGES]} if outcome.u_t.size else {}
-    return ({"place": outcome.edge, **timed} if len(setup.edges) > 1 else {}) | {
+    unbalance = run.scene.unbalance
+    more = {"place": outcome.edge, **timed} if len(setup.edges) > 1 else {}
+    more |= {"orbit": unbalance.orbit(setup.Omega, run.rom.f1)[0]} if unbalance else {}
+    return more | {
         SPEED: over_f1(speed, run.rom),
         "speed": speed,
         "xi": setup.places.xi,
@@ -673,6 +684,8 @@ def _energies(run: Run) -> dict[str, Any]:
     """The ledger, J; ``ENERGIES`` defines each."""
     ledger, unknown = run.outcome.ledger, () if run.scene.contact.friction else BY_FRICTION
     unknown += () if run.outcome.casing else BY_CASING
+    unknown += () if run.scene.force else ("force",)
+    unknown += () if flutters(run.scene.damping_ratio) else ("fed",)
     energies = asdict(ledger) | {"numerical": ledger.numerical}
     of_run = {name: value for name, value in energies.items() if name not in unknown}
     return {"energy": [*of_run], "ledger": [*of_run.values()]}
@@ -689,7 +702,7 @@ def _of_friction(run: Run) -> dict[str, Any]:
     rows, of_rows = with_lean(modes, k, setup.Phi_lean)
     return slid | {
         "mu_crit": mu_crit(modes, k),
-        "growth_rate": growth_rate(rows, mu, scene.damping_ratio, of_rows),
+        "growth_rate": growth_rate(rows, mu, setup.zeta, of_rows),
     }
 
 
@@ -764,8 +777,8 @@ def of_spectrum(run: Run) -> dict[str, Any]:
 
     And the lines that last, at the places where responses are judged.
     """
-    record, outcome = run.scene.record, run.outcome
-    rounds, zeta = record.rounds_of_spectrum, run.scene.damping_ratio
+    record, outcome, scene = run.scene.record, run.outcome, run.scene
+    rounds = record.rounds_of_spectrum
     samples, orders = rounds * record.samples_per_round, np.arange(1, record.highest_order + 1)
     values, largest = np.full(samples // 2 + 1, np.nan, np.float32), np.nan
     found = dict.fromkeys(("beside", "beside_order"), np.full(len(JUDGED), np.nan)) | {
@@ -774,7 +787,8 @@ def of_spectrum(run: Run) -> dict[str, Any]:
     }
     if outcome.status in WITH_RESULT:
         values, largest = last_spectrum(run), outcome.u_r[-samples:, 0].max()
-        found = lines(outcome.judged, rounds, zeta, run.scene.casing.drives(orders))
+        driven = scene.casing.drives(orders, scene.forced)
+        found = lines(outcome.judged, rounds, run.setup.damping_at, driven)
     return found | {
         "spectrum": values,
         "largest": largest,

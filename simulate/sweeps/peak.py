@@ -17,12 +17,12 @@ from numpy.typing import NDArray
 
 from geometry.blade import MODES, ORDERS
 from geometry.tip import EDGES, JUDGED
+from rom.crossings import crossing
 from rom.model import Rom
 from simulate.errors.observables import Numbers
 from simulate.marching import WITH_RESULT
 from simulate.scene import LEADING, Scene, side_bands
 from simulate.signals import amplitude, leading_gap, maxima
-from simulate.sweeps.crossings import crossing
 from simulate.sweeps.dataset import scene_of
 from simulate.sweeps.result_types import NO_CROSSING, Course, OfBlades, mode_name, order_name
 
@@ -149,6 +149,7 @@ class Responses:
         sought = {
             *map(int, np.atleast_1d(self.sought.get("orders", ORDERS))),
             *harmonics,
+            *self.scene.forced,
             *(asked or ()),
         }
         lines = self.beside * (self.beside_order <= max(sought))

@@ -37,6 +37,7 @@ from geometry.base import Say, SettingsError, known, progress, silent
 from geometry.blade import MODES, Fatigue
 from geometry.tip import EDGES
 from rom.coarser import coarser
+from rom.measured import told
 from rom.model import Rom, RomError
 from simulate.errors.companion import FINER_TIMES, TIMES, Fineness, companion
 from simulate.errors.model_errors import BEYOND, SHARE, ModelError, SecondOrder
@@ -147,6 +148,7 @@ def of_sweep(
         "no_torque": of.no_torque,
         "mu_crit": float(runs["mu_crit"].min()) if "mu_crit" in runs else None,
         "reasons": sorted({*runs["reason"].values.astype(str)} - {""}) if "reason" in runs else [],
+        "assumed": [*of.assumes, *told(rom)],
         "ends": ends(runs),
         "blades": of.stage.count if of.stage else 1,
         "whirls": whirls(rom, of.liner, of.casing, MODES),

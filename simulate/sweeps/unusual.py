@@ -15,6 +15,7 @@ from geometry.base import Caution
 from rom.model import Rom
 from simulate.contact.gaps import given_gaps
 from simulate.scene import LEADING, Casing, Liner, Profile, Scene
+from simulate.scene.damping import given
 
 SLOWEST = 0.005  # over f1(0): below, no engine order up to 200 meets f1
 DAMPED = 0.1  # of critical damping: blades and their roots have 1e-4 to 2e-2
@@ -41,7 +42,7 @@ def doubts(scene: Scene, rom: Rom) -> dict[str, str]:
     gaps = given_gaps(scene.gaps, rom, [LEADING, 0, 1])
     goes_on = scene.start is not None or scene.record.end
     tried = chain(
-        _of_motion(scene.speeds.omega(rom.f1).min() / rom.omega1, scene.damping_ratio),
+        _of_motion(scene.speeds.omega(rom.f1).min() / rom.omega1, max(given(scene.damping_ratio))),
         _of_gaps(
             scene.casing,
             float(gaps[0]),

@@ -13,12 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geometry.base import RPM
+from rom.crossings import crossings_of, first_frequencies
 from rom.model import Rom
 from simulate.contact.places import closing_rows, strip_places
 from simulate.marching.setup import strip_stiffness
 from simulate.scene import Casing, Liner
 from simulate.scene.casing_modes import CasingMode
-from simulate.sweeps.crossings import crossings_of, first_frequencies
 
 
 def whirls(rom: Rom, liner: Liner, casing: Casing, modes: int) -> list[dict[str, Any]]:

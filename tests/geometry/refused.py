@@ -12,5 +12,5 @@ def refused[Kind: Exception](
     """The error of this kind, in one line, that ``call`` raises with the arguments given."""
     with pytest.raises(kind, match=match) as caught:
         call(*args, **keys)
-    assert "\n" not in str(caught.value)
+    assert "\n" not in str(caught.value), str(caught.value)
     return caught.value

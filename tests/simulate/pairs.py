@@ -15,6 +15,8 @@ from simulate.marching.disk import (
     Turned,
     does_not_slide,
     march_disk,
+    of_all_schemes,
+    same_casing,
     scheme_of,
     stacked,
 )
@@ -130,6 +132,8 @@ def stood(theta, k_c, Omega, h, modes, zeta=0.0):
         schemes=stacked([lending(scheme, 1, lent)]),
         which=np.zeros(blades, np.int64),
         slides=does_not_slide,
+        rows=of_all_schemes,
+        casing=same_casing,
         g0=np.tile(system.g0, (blades, 1)),
         first=np.tile(system.first, (blades, 1)),
         leg=1,

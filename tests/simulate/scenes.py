@@ -65,7 +65,7 @@ def softened(case: Scene, unit_MPa: float) -> Scene:
 
 def blade_balance(ledger: Ledger) -> float:
     """Error of the blade's own balance, J: round-off."""
-    return ledger.blade - ledger.blade_before + ledger.damping - ledger.work
+    return ledger.blade - ledger.blade_before + ledger.damping - ledger.work - ledger.force
 
 
 def scene(**changes) -> Scene:

@@ -159,7 +159,7 @@ def test_force_and_moment_are_those_of_the_rods_where_they_leave_the_strips(deca
 def with_rows(of, Phi_lean):
     """Rows of the lean in a set-up without friction, and the blade as the kernel reads it."""
     rows = rows_of(of.Phi_b, of.Phi_t, Phi_lean)
-    blade = SCHEMES[of.scheme].coefficients(of.omega, rows, of.damping_ratio, of.h)
+    blade = SCHEMES[of.scheme].coefficients(of.omega, rows, of.zeta, of.h)
     return {"Phi_lean": Phi_lean, "blade": blade}
 
 

@@ -7,9 +7,9 @@ from scenes import scene
 from scipy.signal import find_peaks
 
 from geometry.tip import JUDGED
+from rom.crossings import crossing
 from simulate import Runs
 from simulate.signals import lines, maxima, spectrum
-from simulate.sweeps.crossings import crossing
 from simulate.sweeps.peak import peak_of, reported, rise
 
 ROUNDS, SAMPLES, GAP, ZETA = 10, 256, 2e-5, 0.002
@@ -32,7 +32,7 @@ def made(signals, speeds, harmonics=TWO, **changes):
     )
     driven = case.casing.drives(np.arange(1, 101))
     each = [np.broadcast_to(signals(speed), (3, len(TURNS))).T for speed in speeds]
-    found = [lines(GAP * signal, ROUNDS, ZETA, driven) for signal in each]
+    found = [lines(GAP * signal, ROUNDS, lambda _: ZETA, driven) for signal in each]
     bins = [GAP * spectrum(signal[:, 0]) for signal in each]
     runs = {
         "spectrum": (("speed_over_f1", "engine_order"), bins),
@@ -168,7 +168,7 @@ def test_a_line_lasts_that_falls_by_less_than_half_of_what_damping_takes(rounds)
         for share in (last - 0.1, last + 0.1):
             free = np.exp(-ZETA * k * turns)
             signal = (1 - share + share * free) * np.cos(k * turns)
-            found = lines(signal[:, None], rounds, ZETA, driven)["along"][0, k - 1]
+            found = lines(signal[:, None], rounds, lambda _: ZETA, driven)["along"][0, k - 1]
             assert bool(found > 0) is (share < last)
 
 

@@ -39,8 +39,8 @@ def test_a_sweep_holds_the_ledger(coarse_rom, plain):
     assert plain["ledger"].dims == ("speed_over_f1", "energy") and plain["ledger"].units == "J"
     by_name = dict(zip(plain["energy"].values, plain["ledger"].values[0], strict=True))
     energies = asdict(ledger) | {"numerical": ledger.numerical}
-    for name in ("friction", "heat", *OF_CASING):
-        assert energies.pop(name) == 0  # kept where there is friction, and where the casing moves
+    for name in ("friction", "heat", *OF_CASING, "force", "fed"):
+        assert energies.pop(name) == 0  # kept where there is such a thing
     assert by_name == energies
     # every energy is said in the file
     assert all(f"{name}: " in plain["energy"].long_name for name in by_name)

@@ -14,7 +14,8 @@ MODULES = {
     *("simulate.contact.compiled", "simulate.errors.observables", "simulate.signals"),
     *("simulate.scene.tables", "simulate.sweeps.result_types"),
     *("workflow.many.columns", "workflow.many.design", "workflow.many.plan", "workflow.many.table"),
-    *("simulate.marching.states", "simulate.marching.trend", "simulate.sweeps.crossings"),
+    *("simulate.marching.states", "simulate.marching.trend", "rom.crossings"),
+    *("simulate.scene.damping", "simulate.scene.unbalance"),
     *simulate.FACE.values(),
 }
 MORE_SPEEDS = ("over_f1: [0.3]", "over_f1: {first: 0.28, last: 0.39, count: 12}")

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from made_sweeps import F1, STIFFENING, made_rom
 
+from rom.crossings import crossing
 from rom.polynomial import basis_speeds
-from simulate.sweeps.crossings import critical, crossing
+from simulate.sweeps.crossings import critical
 
 TOP = 0.4  # of the made model, over f1(0)
 ORDERS = (1, 2, 3, 4, 5, 8, 9, 10)

@@ -33,7 +33,7 @@ STILL = Ledger(*[0.0] * 7)
 LOSSY = Ledger(1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 FACTS = {  # of marches that end with a status
     "ok": Facts(RUNNING, STILL),
-    "no-contact": Facts(RUNNING, STILL, at_rest=True),
+    "no-contact": Facts(RUNNING, STILL, untouched=True),
     "inaccurate": Facts(RUNNING, LOSSY),
     "diverged": Facts(ESCAPED, STILL),
     "liner-exhausted": Facts(WORN_THROUGH, STILL),

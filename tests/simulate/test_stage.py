@@ -32,7 +32,16 @@ from simulate.marching import (
 )
 from simulate.marching.common_casing import RIGID
 from simulate.marching.course import Course
-from simulate.marching.disk import Disk, Turned, does_not_slide, leg_of, march_disk, stacked
+from simulate.marching.disk import (
+    Disk,
+    Turned,
+    does_not_slide,
+    leg_of,
+    march_disk,
+    of_all_schemes,
+    same_casing,
+    stacked,
+)
 from simulate.marching.kernel import Recorded, at_start
 from simulate.marching.status import judged
 from simulate.scene import Stage
@@ -70,6 +79,8 @@ def rigid_blades(rounds, per_blade=4):
         schemes=stacked([scheme]),
         which=np.zeros(blades, np.int64),
         slides=does_not_slide,
+        rows=of_all_schemes,
+        casing=same_casing,
         g0=1 - STRAINS[:, None] / 2,
         first=per_blade * np.arange(float(blades))[:, None],
         leg=2,

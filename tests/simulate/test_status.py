@@ -23,7 +23,7 @@ SLIDING = Ledger(1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0)
     [
         (Facts(RUNNING, SOUND), "ok"),
         (Facts(RUNNING, Ledger(*[0.0] * 7)), "ok"),  # without contact
-        (Facts(RUNNING, Ledger(*[0.0] * 7), at_rest=True), "no-contact"),
+        (Facts(RUNNING, Ledger(*[0.0] * 7), untouched=True), "no-contact"),
         (Facts(RUNNING, replace(SOUND, work=5.4)), "ok"),  # creates 0.9
         (Facts(RUNNING, FED), "unstable"),
         (Facts(RUNNING, SOUND, unsolved=1), "unstable"),
@@ -32,6 +32,9 @@ SLIDING = Ledger(1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0)
         (Facts(RUNNING, replace(SOUND, plastic=nan)), "unstable"),
         (Facts(ESCAPED, SOUND), "diverged"),
         (Facts(ESCAPED, FED), "unstable"),
+        (Facts(ESCAPED, replace(FED, force=6.0)), "diverged"),  # a tenth of what all gave
+        (Facts(ESCAPED, replace(FED, fed=6.0)), "diverged"),
+        (Facts(ESCAPED, replace(FED, force=-6.0)), "unstable"),
         (Facts(WORN_THROUGH, SOUND), "liner-exhausted"),
         (Facts(RUNNING, SLIDING, least_sliding=SLIDES), "ok"),
         (Facts(RUNNING, SLIDING, least_sliding=0.99 * SLIDES), "inaccurate"),
@@ -41,7 +44,7 @@ def test_status_of_a_march(facts, status):
     assert judge(facts) == status
 
 
-AT_REST = {"at_rest": True}
+AT_REST = {"untouched": True}
 BESIDE = {  # what second runs tell, further facts, and the status that they leave
     "its twin departs": ({"twin": 1.01 * SENSITIVE_FROM}, {}, "sensitive"),
     "not by much": ({"twin": 0.99 * SENSITIVE_FROM}, {}, "ok"),

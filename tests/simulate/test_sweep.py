@@ -7,10 +7,10 @@ import pytest
 from runs import swept
 from scenes import of_steps, scene
 
+from rom.crossings import crossing
 from simulate.errors.model_errors import ModelError
 from simulate.scene import Peaks
 from simulate.sweeps.cost import cost
-from simulate.sweeps.crossings import crossing
 from simulate.sweeps.over_speeds import as_sweep, at_speeds
 from simulate.sweeps.peak import Responses, along_order, only_at, peak_of, reported, rise
 from simulate.sweeps.peak_results import results

@@ -12,13 +12,13 @@ from scenes import EXACT, RUBBING, of_steps, scene
 from scipy.signal import lfilter
 
 from geometry.base import ROOT
+from rom.crossings import crossing
 from simulate.errors.neighbour import Neighbour
 from simulate.errors.neighbours import ITSELF, TWIN, judged
 from simulate.errors.run import Case
 from simulate.marching import WITH_RESULT, march, prepare
 from simulate.marching.trend import FEWEST, Rounds, looks, time_constant, trend
 from simulate.scene import DYING_OUT, GROWING, STEADY, TOO_SHORT, TRENDS, Scene
-from simulate.sweeps.crossings import crossing
 from simulate.sweeps.dataset import SPEED, course, load, of_run, save
 from simulate.sweeps.peak import Peak
 from simulate.sweeps.peak_results import case_of, to_march

@@ -13,10 +13,10 @@ from rotor67 import coarse, mesh_at_rest
 
 from geometry.base import ROOT, RPM
 from geometry.interface import tip_of
+from rom.crossings import crossing
 from rom.model import Rom
 from rom.reduce import reduce
 from simulate import Scene, march, sweep
-from simulate.sweeps.crossings import crossing
 from workflow.jobs.full_model import assembled
 
 SCENE = ROOT / "workflow/scenes/rotor67.yaml"

@@ -26,6 +26,7 @@ def scene(blade="thin", design=None, gaps="running", count=9, touches=True, stag
         directions="r",
         design=design,
         stage=stage,
+        force=None,
         gaps=Made(vary=gaps == "rest"),
         speeds=Made(count=count),
         liner=Made(law=Made(touches=touches)),

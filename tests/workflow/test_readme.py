@@ -11,9 +11,12 @@ import pytest
 import yaml
 from made_sweeps import ROOT, save_runs
 from projects import TABLES, make_project
+from runs import marched
+from scenes import EXACT, RUBBING, scene
 
 from geometry.base import check_settings, read_json
 from geometry.blade import Blade
+from simulate.marching import WITH_RESULT, check_scene
 from simulate.scene import Scene
 from simulate.scene.laws.plastic import Plastic
 from workflow.figures import table
@@ -97,9 +100,31 @@ def test_sources_of_geometry_that_the_page_shows_are_read():
     """Each put into a blade of ours."""
     blade = yaml.safe_load((ROOT / "workflow/blades/reference.yaml").read_text())
     rest = {key: value for key, value in blade.items() if key not in ("sections", "mesh")}
-    shown = [yaml.safe_load(code) for code in blocks("geometry/README.md", "yaml")]
+    codes = blocks("geometry/README.md", "yaml")
+    shown = [yaml.safe_load(code) for code in codes if "frequencies_Hz" not in code]
     keys = [check_settings(Blade, rest | one, "geometry/README.md").source_key for one in shown]
     assert keys == ["sections", "section_table", "cad", "mesh_file"]
+
+
+@pytest.mark.parametrize("key", ["damping_ratio:", "force:", "unbalance:"])
+def test_each_scene_of_what_an_engine_adds_runs(coarse_rom, key):
+    """Every example of the key, beside the scene of the tests, marches to its end."""
+    examples = [code for code in blocks("simulate/README.md", "yaml") if code.startswith(key)]
+    assert examples
+    for code in examples:
+        case = scene(**RUBBING | {"integrator": EXACT}, speeds__over_f1=[0.25]).but(
+            **yaml.safe_load(code)
+        )
+        check_scene(case, coarse_rom)
+        assert marched(case, coarse_rom, 0.25).status in WITH_RESULT
+
+
+def test_measured_frequencies_are_those_of_a_blade():
+    """The example is a key of a blade."""
+    (code,) = [code for code in blocks("geometry/README.md", "yaml") if "frequencies_Hz" in code]
+    rest = yaml.safe_load((ROOT / "workflow/blades/reference.yaml").read_text())
+    blade = check_settings(Blade, rest | yaml.safe_load(code), "geometry/README.md")
+    assert blade.settings_of_model()["frequencies_Hz"] == {"1": 612.0, "2": 1480.0}
 
 
 @pytest.mark.parametrize(

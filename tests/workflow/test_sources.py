@@ -114,8 +114,9 @@ TARGETS = [
     *("results/matrices/rom-check-r.nc", "results/paper/conclusions.md"),
     *("results/paper/gauged/gauges.csv", "results/figures/gauges-gauged.png"),
     *("results/figures/blades-staged.png", "results/figures/distribution-scattered.png"),
-    "results/paper/scattered/quantiles.csv",
+    *("results/paper/scattered/quantiles.csv", "results/figures/forced-forced.png"),
 ]
+FORCED = "base: paper-e1\nforce: {orders: [{order: 4, amplitude_um: 20}]}\n"
 STAGED = "base: paper-e1\nstage: {count: 2, longer_um: {std_um: 1, seed: 1}}\n"
 GAUGED = """
 base: paper-e1
@@ -160,6 +161,7 @@ def jobs(tmp_path_factory):
     for file in check_settings(MatricesElsewhere, yaml.safe_load(text), "").files:
         (blades / file).touch()
     (project.folder / "workflow/scenes/gauged.yaml").write_text(GAUGED)
+    (project.folder / "workflow/scenes/forced.yaml").write_text(FORCED)
     (project.folder / "workflow/scenes/staged.yaml").write_text(STAGED)
     (project.folder / "workflow/scenes/scattered.yaml").write_text(f"{STAGED}design: seeds.csv\n")
     (project.folder / "workflow/scenes/seeds.csv").write_text("stage.longer_um.seed\n1\n2\n")

@@ -73,6 +73,7 @@ OF = {
     "mu_crit": None,
     "whirls": [],
     "blades": 1,
+    "assumed": [],
     "worst": [],
     "peaks": [ANSWER],
 }

@@ -93,7 +93,7 @@ class Response:
         As far as the spectrum holds them.
         """
         sought = self.sweep.attrs.get("orders", ORDERS)  # of one, files have a number
-        orders = {*map(int, np.atleast_1d(sought)), *self.scene.casing.excites}
+        orders = {*map(int, np.atleast_1d(sought)), *self.scene.excites}
         end = (
             self.sweep["spectrum"].shape[1] // self.scene.record.rounds_of_spectrum
             if "spectrum" in self.sweep

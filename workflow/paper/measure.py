@@ -17,13 +17,13 @@ from numpy.typing import NDArray
 from scipy.stats import entropy, spearmanr
 
 from rom.check import RomCheck
+from rom.crossings import crossing
 from rom.model import Rom
 from rom.polynomial import evaluate
 from simulate.errors.observables import error
 from simulate.marching import WITH_RESULT, march, prepare
 from simulate.scene import LEADING, Scene
 from simulate.signals import leading_gap, leading_wear, lobe_count, spectrum
-from simulate.sweeps.crossings import crossing
 from simulate.sweeps.dataset import over_f1, scene_of, statuses
 from simulate.sweeps.peak import peak_of
 from workflow.paper.grid import Numbers, peak, worst

@@ -111,7 +111,7 @@ class Project:
         Of all scenes to deliver of the blade, so that all its figures and tables tell the same.
         """
         scenes = [scene for scene in self.delivered.values() if scene.blade == blade]
-        by_orders = (scene.casing.excites.items() for scene in scenes)
+        by_orders = (scene.excites.items() for scene in scenes)
         # an order of one casing may be a side band of another: the harmonic is told
         excited = dict(sorted(chain(*by_orders), key=lambda item: item[1] == CASING))
         settings = self.blades.settings[blade]

@@ -6,8 +6,8 @@ from typing import Any
 from matplotlib.figure import Figure
 
 from rom.check import RomCheck
+from rom.crossings import crossing
 from rom.model import Rom
-from simulate.sweeps.crossings import crossing
 from workflow.figures import campbell, spectra, wear
 from workflow.figures.annotations import NO_LINES, Marks
 from workflow.figures.response import Response
