@@ -27,6 +27,8 @@ from made_sweeps import (
 from PIL import Image
 from projects import ROOT
 from refused import refused
+from runs import swept
+from scenes import EXACT, scene as of_march
 from test_blade_studies import OWN, SLOPE, of_meshes  # noqa: F401
 from test_figures_setup import PATCHES, blade_files, footprint_files, paper, shapes  # noqa: F401
 from test_long_times import (
@@ -42,8 +44,10 @@ from geometry.blade import Blade
 from geometry.hats import hat_nodes
 from geometry.profile import profile_at
 from rom.check import RomCheck
+from rom.crossings import crossing
 from rom.full_model import FullModel
 from simulate.scene import Scene
+from simulate.signals import leading_gap
 from simulate.sweeps.dataset import save as save_sweep
 from simulate.sweeps.peak import Peak, along_order
 from simulate.sweeps.peak_results import asked, ends
@@ -51,6 +55,7 @@ from workflow.figures import (
     blades,
     campbell,
     designs,
+    forced,
     loads,
     modes as modes_at_rest,
     spectra,
@@ -393,6 +398,28 @@ def of_blades(sweep, rom):
     return Response(staged.assign_attrs(attrs_of(scene, "mine")), rom)
 
 
+def forced_by(rom, amplitude_um):
+    """Forced response about the crossing with EO 4, 21 um before the liner."""
+    met = crossing(rom, 4)
+    orders = [{"order": 4, "amplitude_um": amplitude_um}, {"order": 9, "modal_force": [0.0, 1.0]}]
+    case = of_march(
+        speeds={"over_f1": (met * np.linspace(0.95, 1.05, 11)).tolist()},
+        rounds=8,
+        integrator=EXACT,
+        damping_ratio=0.005,
+        casing={"harmonics": [], "ramp_rounds": 0},
+        force={"orders": orders, "from": "steady"},
+        record={"spectrum_rounds": 4, "samples_per_round": 64},
+    )
+    return Response(swept(case, rom), rom)
+
+
+@pytest.fixture(scope="module")
+def of_force(coarse_rom):
+    """That of which the largest reach the liner."""
+    return forced_by(coarse_rom, 60.0)
+
+
 def stressed(worst=None, at=(0, 0, 0), **fields):
     """A bar of one by one by three, x the long side, its tip the contact, with ``stress.vtu``'s."""
     bar = pv.ImageData(dimensions=(4, 2, 2)).cast_to_unstructured_grid()
@@ -458,6 +485,7 @@ FIGURES = {
     "sensitivity": lambda get: designs.sensitivity(*read(designs, get("sobol_rows"))),
     "distribution": lambda get: designs.distribution(get("over_seeds")),
     "blades": lambda get: blades.draw(get("of_blades")),
+    "forced": lambda get: forced.draw(get("of_force")),
     "stress": lambda get: stress.draw(*AT_ONE_SIDE),
     "mesh": lambda get: mesh_convergence.draw(get("of_meshes")),
     "stability": lambda get: stability.draw([*ENGAGED, *INTERMITTENT]),
@@ -1000,6 +1028,32 @@ def test_blades_of_a_stage_are_drawn_by_number_and_speed(of_blades, figure):
         np.testing.assert_allclose(line.get_ydata(), share * most)
     worst = np.where(has_result, np.arange(len(SPEEDS)) % 3, np.nan)
     np.testing.assert_array_equal(points(top, "o")[:, 1], worst)
+
+
+def test_forced_response_is_drawn_with_and_without_rub(of_force, figure):
+    """Without contact the runs lie on the closed form, open; rubs are filled, and below it."""
+    axes, *_ = figure("forced").axes
+    alone, rubs, free = axes.lines[:3]
+    touched = of_force.status != "no-contact"
+    assert 2 < touched.sum() < len(touched)
+    assert len(rubs.get_xdata()) == touched.sum()
+    closed_form = np.interp(of_force.speeds, alone.get_xdata(), alone.get_ydata())
+    np.testing.assert_allclose(free.get_ydata(), closed_form[~touched], rtol=1e-5)
+    assert (rubs.get_ydata() < 0.9 * closed_form[touched]).any()
+    assert closed_form.max() == pytest.approx(60e-6 / leading_gap(of_force.sweep), rel=1e-4)
+    assert [text.get_text() for text in axes.get_legend().get_texts()] == [
+        *("EO 4", "EO 9", "without contact")
+    ]
+
+
+def test_forced_peak_without_contact_is_a_critical_speed(coarse_rom):
+    """Of mode 1 at its crossing, with that amplitude, of runs in which the tip does not touch."""
+    without = forced_by(coarse_rom, 15.0)
+    assert {*without.status} == {"no-contact"}
+    (peak,) = without.peaks
+    assert (peak.k, peak.modes) == (4, (1,))
+    assert peak.over_crossing == pytest.approx(1, rel=1e-9)
+    assert peak.amplitude * leading_gap(without.sweep) == pytest.approx(15e-6, rel=1e-3)
 
 
 def test_quantiles_over_seeds_are_told_apart_for_other_columns(over_seeds):

@@ -84,6 +84,12 @@ def test_a_rub_peak_that_grows_says_so(told):
     assert f"rub peak ({GROWING}) of EO 5 with mode 1" in summary.terminal(found)
 
 
+def test_a_peak_of_a_blade_that_does_not_touch_is_of_its_forces(told):
+    found = told(peaks=[PEAK | {"status": "no-contact"}])
+    assert row_of(found, "design", "forced peak", 5)["rpm"] == pytest.approx(0.25 * RPM)
+    assert "nearest forced peak: " in summary.terminal(found)
+
+
 def test_nearest_first_and_what_is_far_is_in_the_csv_file_alone(told):
     found = told()
     for name in LINES:

@@ -125,6 +125,11 @@ def summed(tmp_path):
     return summed
 
 
+def test_what_a_scene_leaves_out_is_told(summed):
+    said = "The orbit of the rotor is prescribed: contact does not act on it"
+    assert f"\n{said}.\n" in summary.terminal(summed(assumed=[said]))
+
+
 def test_a_peak_in_units_of_engines(summed):
     """0.35 of 200 Hz is 4200 rpm and, at order 4, 280 Hz; micrometres, cubic millimetres, MPa."""
     found = summed(stress=STRESS)
