@@ -15,7 +15,7 @@ PYTHON = re.findall(r"```python\n(.*?)```", (ROOT / "README.md").read_text() + P
 NAMES = [
     path.split("/")[-1].removesuffix(".yaml") for path in FILES if re.search("/scenes/.*yaml", path)
 ]
-OF_REFERENCE = ("my-run-up", "my-liner", "my-orbit", "my-casing", "my-gauges")
+OF_REFERENCE = ("my-run-up", "my-liner", "my-orbit", "my-casing", "my-gauges", "my-wakes")
 
 
 @pytest.fixture(scope="module")
@@ -34,7 +34,7 @@ def test_the_first_page_shows_what_the_terminal_prints_of_the_first_scene(projec
 
 
 def test_the_page_has_over_a_dozen_recipes():
-    assert len(re.findall(r"^## \.\.\. .*\?$", PAGE, re.MULTILINE)) == 15
+    assert len(re.findall(r"^## \.\.\. .*\?$", PAGE, re.MULTILINE)) == 17
 
 
 def test_files_of_the_page_are_planned(with_files):
@@ -57,6 +57,7 @@ def test_files_of_the_page_give_results(with_files):
         "results/paper/my-scatter/quantiles.csv",
         "results/figures/distribution-my-scatter.png",
         "results/figures/campbell-my-engine.png",
+        "results/figures/forced-my-wakes.png",
         "results/paper/my-gauges/gauges.csv",
         "results/figures/gauges-my-gauges.png",
     )
