@@ -40,7 +40,7 @@ AnyWhirl = Annotated[Whirl, from_csv(Whirl, SPEEDS, LAGS, RADII)]
 class Jeffcott(Settings):
     """A Jeffcott rotor: a disc on a flexible shaft (Jeffcott 1919).
 
-    With r the speed over the critical one, A = e r^2 / |1 - r^2 + 2 i zeta r|, and psi its phase.
+    With r the speed over the critical one, A e^{-i psi} = e r^2 / (1 - r^2 + 2 i zeta r).
     """
 
     hints: ClassVar = {"damping_ratio": "over critical damping: 0.5 % is 0.005"}
