@@ -295,7 +295,7 @@ def _described(model: type[Settings], fault: Any) -> Sequence[Fault]:
         return cause.within(key=key).faults
     if kind == "extra_forbidden":
         return [_unknown(model, key)]
-    messages = MESSAGES | {"model_type": f"needs keys: {', '.join(model.model_fields)}"}
+    messages = MESSAGES | {"model_type": f"needs keys: {', '.join(_keys(model))}"}
     text = messages.get(kind, fault["msg"].replace("Input should", "should"))
     if kind in ("missing", "value_error"):
         return [Fault(text.removeprefix("Value error, "), key)]
@@ -308,11 +308,16 @@ def _unknown(model: type[Settings], key: str) -> Fault:
     """The fault of a key that the model does not have, or no longer."""
     if key in model.replaced:
         return Fault(f"no longer a key; {model.replaced[key]}", key)
-    near, keys = _nearest(model, key), [*model.model_fields]
+    near, keys = _nearest(model, key), _keys(model)
     hint = f"did you mean '{near[0]}'?" if near else f"known keys: {', '.join(keys)}"
     return Fault(f"unknown key; {hint}", key, allowed=near or keys)
 
 
 def _nearest(model: type[Settings], key: str) -> list[str]:
     """The key of the model closest to an unknown one, as a list of one or none."""
-    return get_close_matches(key, model.model_fields, n=1)
+    return get_close_matches(key, _keys(model), n=1)
+
+
+def _keys(model: type[Settings]) -> list[str]:
+    """The keys of a model as users write them: one that is a word of Python has an alias."""
+    return [field.alias or name for name, field in model.model_fields.items()]

@@ -49,10 +49,14 @@ class OverFrequency(Points):
 
 
 def _kind(value: Any) -> str:
-    if isinstance(value, int | float):
-        return "number"
-    keys = value if isinstance(value, dict) else ()
-    return "families" if isinstance(value, OfFamilies) or "families" in keys else "table"
+    """The form that was meant."""
+    if isinstance(value, OverFrequency) or str(value).endswith(".csv"):
+        return "table"
+    if isinstance(value, OfFamilies | list):
+        return "families"
+    if isinstance(value, dict):
+        return "table" if "frequency_Hz" in value else "families"
+    return "number"
 
 
 AnyDamping = Annotated[

@@ -142,6 +142,8 @@ def test_alike_ratios_are_one():
         (-0.2, "damping_ratio"),
         ({"families": [0.001, -0.3], "rest": 0.0}, "damping_ratio.families.1"),
         ({"families": [0.001]}, "damping_ratio.rest"),
+        ([0.001, 0.002], "damping_ratio"),
+        ("0.5 %", "damping_ratio"),
         ({"frequency_Hz": [200.0, 100.0], "damping_ratio": [0.0, 0.0]}, "damping_ratio"),
         ({"frequency_Hz": [0.0, 100.0], "damping_ratio": [0.0]}, "damping_ratio"),
     ],

@@ -180,6 +180,8 @@ def test_a_run_goes_on_from_another(coarse_rom):
 REFUSED = {
     "two of an order": ({"orders": [{"order": 3, "modal_force": [1.0]}] * 2}, "force.orders"),
     "no size": ({"orders": [{"order": 3}]}, "force.orders.0"),
+    "no mapping": (4, "needs keys: orders, from"),
+    "Python's name": (ON_BLADE | {"from_": "rest"}, "did you mean 'from'?"),
 }
 
 
