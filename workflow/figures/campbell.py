@@ -111,7 +111,7 @@ def _frequencies(
         "o",
         color=style.BLUE,
         markerfacecolor="white",
-        label="full model",
+        label="full model, clamped" if rom.measured.size else "full model",
     )
     if beyond:
         further = np.linspace(1, BEYOND) * speeds[-1]
