@@ -33,7 +33,7 @@ class EngineOrder(Settings):
     modal_force: list[Annotated[float, Field(ge=-1e6, le=1e6)]] | None = Field(
         default=None,
         min_length=1,
-        max_length=20,
+        max_length=100,
         description="Instead: generalised forces on the first families of modes, one by one "
         "(N kg^-1/2)",
     )
